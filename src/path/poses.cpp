@@ -25,14 +25,18 @@ constexpr double kMostPoses = 1e7;
 
 }  // namespace
 
+bool areTooNear(const Eigen::Vector3d& point, const Eigen::Vector3d& previous) {
+  return (point - previous).head<2>().norm() < kNearest_m;
+}
+
 std::optional<std::string> faultOf(const Eigen::Vector3d& point, const Eigen::Vector3d* previous) {
   const Range near{-kFarthest_m, kFarthest_m};
   for (int axis = 0; axis < 3; ++axis) {
     if (near.contains(point[axis])) continue;
     return refusal(std::string(1, "xyz"[axis]), textOf(point[axis]), near.words() + " m");
   }
-  if (previous != nullptr && (point - *previous).head<2>().norm() < kNearest_m) {
-    return "it is less than 1 mm from the waypoint before it in plan view";
+  if (previous != nullptr && areTooNear(point, *previous)) {
+    return "it is less than 1 mm from the waypoint before it in plan view; leave it out";
   }
   return std::nullopt;
 }

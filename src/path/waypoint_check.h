@@ -8,6 +8,9 @@
 
 namespace sunlit::path {
 
+/// Too near to each other in plan view to give a heading.
+bool areTooNear(const Eigen::Vector3d& point, const Eigen::Vector3d& previous);
+
 /// What is wrong with `point`, which follows `previous` (null for the first): nothing, or a sentence about
 /// it.
 std::optional<std::string> faultOf(const Eigen::Vector3d& point, const Eigen::Vector3d* previous);

@@ -56,9 +56,12 @@ class Reader {
       if (!line.empty()) readLine(line);
     }
     if (stream.bad()) fail("cannot read on");
-    if (waypoints_.size() < 2) fail(tooFew(waypoints_.size()));
+    if (waypoints_.size() < 2) fail(tooFew(waypoints_.size()) + (left_out_ > 0 ? "; " + leftOutText() : ""));
     return std::move(waypoints_);
   }
+
+  /// Empty where there is nothing to tell.
+  std::string note() const { return left_out_ > 0 ? file_ + ": " + leftOutText() : ""; }
 
  private:
   [[noreturn]] void fail(const std::string& wrong) const {
@@ -98,9 +101,20 @@ class Reader {
                 : Eigen::Vector3d(values[1], values[2], values[3]));
   }
 
+  std::string leftOutText() const {
+    return std::to_string(left_out_) + (left_out_ == 1 ? " pose" : " poses") +
+           " left out, less than 1 mm in plan view from the one before";
+  }
+
   void add(const Eigen::Vector3d& point) {
-    if (const auto fault = faultOf(point, waypoints_.empty() ? nullptr : &waypoints_.back())) fail(*fault);
-    waypoints_.push_back(point);
+    const Eigen::Vector3d* previous = waypoints_.empty() ? nullptr : &waypoints_.back();
+    // What was recorded stands still at its ends, what was written by hand by mistake.
+    if (const auto fault = faultOf(point, is_csv_ ? previous : nullptr)) fail(*fault);
+    if (previous != nullptr && areTooNear(point, *previous)) {
+      ++left_out_;
+    } else {
+      waypoints_.push_back(point);
+    }
   }
 
   std::string file_;
@@ -108,12 +122,17 @@ class Reader {
   std::size_t line_number_ = 0;
   std::size_t columns_ = 0;  ///< 0 until the first line
   bool is_csv_ = false;
+  std::size_t left_out_ = 0;  ///< poses of a trajectory that are left out
 };
 
 }  // namespace
 
-Waypoints readWaypoints(const std::string& file) {
-  return Reader(file).read();
+Waypoints readWaypoints(const std::string& file, const std::function<void(const std::string&)>& told) {
+  Reader reader(file);
+  Waypoints waypoints = reader.read();
+  const std::string note = reader.note();
+  if (told && !note.empty()) told(note);
+  return waypoints;
 }
 
 }  // namespace sunlit::path

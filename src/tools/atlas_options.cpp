@@ -205,10 +205,11 @@ std::vector<AtlasCondition> conditionsOf(const Words& words, const astronomy::Ci
 }
 
 std::vector<AtlasPose> posesOf(const Words& words, const studio::WorldOptions& world) {
-  const std::vector<Eigen::Isometry3d> all = posesOf(words.path, world);
+  const path::Waypoints waypoints = waypointsOf(words.path, world);
+  const std::vector<Eigen::Isometry3d> all = posesAlong(waypoints, words.path);
   PathWords beside = words.path;
   beside.sampling.offset_m += words.query_offset_m;
-  const std::vector<Eigen::Isometry3d> all_beside = posesOf(beside, world);
+  const std::vector<Eigen::Isometry3d> all_beside = posesAlong(waypoints, beside);
   std::vector<AtlasPose> poses;
   const int end = words.path.selection.end(static_cast<int>(all.size()));
   for (int i = words.path.selection.first; i < end; i += words.path.selection.stride)

@@ -13,13 +13,13 @@
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/duration.h"
 #include "sunlit/quantity/frames.h"
-#include "sunlit/scene/race_track.h"
 #include "sunlit/sky/atmosphere.h"
 #include "sunlit/studio/command_line.h"
 #include "tools/compare_light_options.h"
 #include "tools/comparison_files.h"
 #include "tools/every_nth_pixel.h"
 #include "tools/output_folder.h"
+#include "tools/path_arguments.h"
 #include "tools/terminal.h"
 
 namespace sunlit::tools {
@@ -33,9 +33,7 @@ double secondsSince(Clock::time_point start) {
 
 std::vector<Eigen::Isometry3d> viewsOf(const CompareLightOptions& options) {
   if (!options.map_from_camera.empty()) return options.map_from_camera;
-  const path::Waypoints waypoints =
-      options.path.empty() ? scene::raceTrackWaypoints() : path::readWaypoints(options.path);
-  const std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypoints, options.sampling);
+  const std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypointsOf(options.path), options.sampling);
   std::vector<Eigen::Isometry3d> views;
   for (int i = 0; i < options.views; ++i) {
     views.push_back(

@@ -13,6 +13,7 @@
 #include "sunlit/scene/weathering.h"
 #include "sunlit/sky/weather.h"
 #include "sunlit/studio/world.h"
+#include "tools/path_arguments.h"
 
 namespace sunlit::tools {
 
@@ -62,11 +63,7 @@ inline std::vector<Field> fieldsOf(CompareLightOptions& options) {
        {},
        "folder for table.csv, table.md, and a picture of each view and sun: fast | traced | relative error "
        "(red too bright, blue too dark, full at 50 %)"},
-      {"path",
-       &options.path,
-       "",
-       {},
-       "waypoints to place views along: CSV or TUM; without it the path of race_track"},
+      {"path", &options.path, "", {}, pathDoc("waypoints to place views along")},
       {"views", &options.views, "", {1, 1000}, "how many, evenly along the path"},
       {"every",
        &options.every,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sunlit/evaluate/picture.h"
+#include "sunlit/evaluate/run/run_folder.h"
 #include "sunlit/evaluate/verify/point_maps.h"
 #include "sunlit/evaluate/verify/verified_file.h"
 #include "sunlit/evaluate/verify/verify.h"
@@ -57,6 +58,9 @@ void print(const std::vector<evaluate::VerifiedRow>& rows) {
 }
 
 void evaluatePair(const EvaluatePairOptions& options) {
+  const std::string file = options.output + "/verified.csv";
+  evaluate::requireNoRun(options.output);
+  evaluate::requireNoneOfRun(file);
   Rgb8Image a = image::readPhotograph(options.a);
   Rgb8Image b = image::readPhotograph(options.b);
   const evaluate::PointMaps maps = mapsOf(options, a, b);
@@ -70,7 +74,6 @@ void evaluatePair(const EvaluatePairOptions& options) {
   for (std::size_t i = 0; i < verified.size(); ++i)
     rows.push_back({options.a, options.b, options.verify.detectors[i], verified[i]});
   makeFolder(options.output);
-  const std::string file = options.output + "/verified.csv";
   evaluate::writeVerified(file, rows);
   print(rows);
   std::printf("%s\n", file.c_str());

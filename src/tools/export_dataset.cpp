@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,12 +74,11 @@ std::vector<Hour> hoursOf(const ExportOptions& options) {
 /// Made only once a picture is missing: loading takes longer than looking whether all are there.
 class Camera {
  public:
-  explicit Camera(const ExportOptions& options) : studio_(options.studio, std::nullopt, onTerminal()) {
-    studio::Sky sky = skyOver(studio_, options.place);
-    for (const TimeOfDay& when : options.hours)
-      lights_.push_back(studio_.illumination(
-          sky.daylight(bodiesOf(options.place, when.hour()), weatherAt(options.place, when.hour()))));
-  }
+  explicit Camera(const ExportOptions& options)
+      : options_(options),
+        studio_(options.studio, std::nullopt, onTerminal()),
+        sky_(skyOver(studio_, options.place)),
+        lights_(options.hours.size()) {}
 
   /// Returns how many pictures it took: of those hours that do not have the frame.
   int take(const DataSetFrame& frame, const Motion& motion, std::vector<Hour>* hours) {
@@ -89,9 +89,9 @@ class Camera {
       Hour& hour = (*hours)[i];
       if (hour.has(frame)) continue;
       const image::PictureName name{frame.number, hour.when.name()};
-      const studio::Developed developed = studio_.photograph(lights_[i], name);
-      if (studio_.hasRight())
-        hour.writeRight(frame, studio_.photographRight(lights_[i], name, developed.ev100));
+      const light::Illumination& light = lightOf(i, frame);
+      const studio::Developed developed = studio_.photograph(light, name);
+      if (studio_.hasRight()) hour.writeRight(frame, studio_.photographRight(light, name, developed.ev100));
       hour.write(frame, developed.picture, depth);
       ++taken;
     }
@@ -101,8 +101,20 @@ class Camera {
   std::string fingerprint() const { return light::fingerprint(studio_.world()); }
 
  private:
+  /// Of hour number `i`; only clouds that drift know how long after the first pose it is.
+  const light::Illumination& lightOf(std::size_t i, const DataSetFrame& frame) {
+    if (lights_[i] && !sky::moves(options_.place.weather)) return *lights_[i];
+    const double hour = options_.hours[i].hour();
+    sky::Weather weather = weatherAt(options_.place, hour);
+    weather.clock_s += static_cast<double>(frame.number) / options_.rate_hz;
+    lights_[i] = studio_.illumination(sky_.daylight(bodiesOf(options_.place, hour), weather));
+    return *lights_[i];
+  }
+
+  const ExportOptions& options_;
   studio::Studio studio_;
-  std::vector<light::Illumination> lights_;  ///< of each hour
+  studio::Sky sky_;
+  std::vector<std::optional<light::Illumination>> lights_;  ///< of each hour, once it was needed
 };
 
 /// Numbers of those frames that an hour lacks.

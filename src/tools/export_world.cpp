@@ -11,9 +11,10 @@
 #include "sunlit/path/path.h"
 #include "sunlit/render/baked_looks.h"
 #include "sunlit/scene/export.h"
-#include "sunlit/scene/race_track.h"
+#include "sunlit/scene/load.h"
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/world.h"
+#include "tools/path_arguments.h"
 #include "tools/progress_line.h"
 #include "tools/terminal.h"
 #include "tools/world_arguments.h"
@@ -61,10 +62,8 @@ std::vector<Eigen::Vector3d> eyesOf(const ExportOptions& options) {
   if (options.path.empty() && options.world.name != scene::kRaceTrack) return {};
   path::PathOptions sampling;
   sampling.spacing_m = 2.0;
-  const path::Waypoints waypoints =
-      options.path.empty() ? scene::raceTrackWaypoints() : path::readWaypoints(options.path);
   std::vector<Eigen::Vector3d> eyes;
-  for (const Eigen::Isometry3d& pose : path::posesAlong(waypoints, sampling))
+  for (const Eigen::Isometry3d& pose : path::posesAlong(waypointsOf(options.path), sampling))
     eyes.push_back(pose.translation());
   return eyes;
 }

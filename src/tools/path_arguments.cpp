@@ -1,5 +1,6 @@
 #include "tools/path_arguments.h"
 
+#include <cstdio>
 #include <stdexcept>
 
 #include "sunlit/scene/load.h"
@@ -7,10 +8,21 @@
 
 namespace sunlit::tools {
 
+std::string pathDoc(const std::string& what) {
+  return what +
+         ": CSV or TUM, whose z is taken for the ground's (a camera's own trajectory needs --height 0); "
+         "without it the path of race_track";
+}
+
+path::Waypoints waypointsOf(const std::string& file) {
+  if (file.empty()) return scene::raceTrackWaypoints();
+  return path::readWaypoints(file,
+                             [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); });
+}
+
 void addPath(studio::CommandLine* line, PathWords* words) {
   line->group("Path");
-  line->add("--path FILE",
-            {"path", &words->file, "", {}, "waypoints: CSV or TUM; without it the path of race_track"});
+  line->add("--path FILE", {"path", &words->file, "", {}, pathDoc("waypoints")});
   const std::vector<Field> sampling = fieldsOf(words->sampling);
   line->add("--spacing M", fieldOf(sampling, "spacing"));
   line->add("--height M", fieldOf(sampling, "camera_height"));
@@ -20,16 +32,22 @@ void addPath(studio::CommandLine* line, PathWords* words) {
   line->add("--stride N", fieldOf(selection, "stride"));
 }
 
-std::vector<Eigen::Isometry3d> posesOf(const PathWords& words, const studio::WorldOptions& world) {
+path::Waypoints waypointsOf(const PathWords& words, const studio::WorldOptions& world) {
   studio::requireWorld(world);
-  const bool built_in = words.file.empty();
-  if (built_in && world.name != scene::kRaceTrack)
+  if (words.file.empty() && world.name != scene::kRaceTrack)
     throw std::invalid_argument(std::string("--path FILE is missing: only the world ") + scene::kRaceTrack +
                                 " has a path of its own");
-  const path::Waypoints waypoints = built_in ? scene::raceTrackWaypoints() : path::readWaypoints(words.file);
+  return waypointsOf(words.file);
+}
+
+std::vector<Eigen::Isometry3d> posesAlong(const path::Waypoints& waypoints, const PathWords& words) {
   std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypoints, words.sampling);
   path::requireWithin(words.selection, static_cast<int>(poses.size()), "--");
   return poses;
+}
+
+std::vector<Eigen::Isometry3d> posesOf(const PathWords& words, const studio::WorldOptions& world) {
+  return posesAlong(waypointsOf(words, world), words);
 }
 
 }  // namespace sunlit::tools

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sunlit/path/path.h"
 #include "sunlit/scene/load.h"
-#include "sunlit/scene/race_track.h"
+#include "tools/path_arguments.h"
 #include "tools/world_arguments.h"
 
 namespace sunlit::tools {
@@ -34,10 +33,11 @@ void ViewArguments::addPlaces() {
       .withoutDefault();
   line_
       ->add("--path-pose N", {"path_pose", &path_pose_, "", Range::atLeast(0),
-                              "pose N along the path, sampled every 1 m, 1 m above it, instead of --pose"})
+                              "pose N along the path, sampled every 1 m, --height above it, instead of "
+                              "--pose"})
       .withoutDefault();
-  line_->add("--path FILE",
-             {"path", &path_file_, "", {}, "that path: CSV or TUM; without it the path of race_track"});
+  line_->add("--path FILE", {"path", &path_file_, "", {}, pathDoc("that path")});
+  line_->add("--height M", fieldOf(fieldsOf(sampling_), "camera_height"));
   line_
       ->add("--top-down X,Y,EXTENT",
             "from straight above, north up, by a field of view of its own instead of --fov, without the air "
@@ -54,12 +54,10 @@ void ViewArguments::addDrive() {
 
 void ViewArguments::placeOnPath(ViewOptions* options) const {
   studio::requireWorld(options->studio.world);
-  const bool built_in = path_file_.empty();
-  if (built_in && options->studio.world.name != scene::kRaceTrack)
+  if (path_file_.empty() && options->studio.world.name != scene::kRaceTrack)
     throw std::invalid_argument(
         "--path-pose needs --path FILE: only the world race_track has a path of its own");
-  const path::Waypoints waypoints = built_in ? scene::raceTrackWaypoints() : path::readWaypoints(path_file_);
-  const std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypoints, {});
+  const std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypointsOf(path_file_), sampling_);
   const auto index = static_cast<std::size_t>(path_pose_);
   if (index >= poses.size())
     refuse("--path-pose", std::to_string(index),
@@ -111,7 +109,7 @@ void ViewArguments::requireThatAllCount(bool rains) const {
     what = "--look-at turns the camera already; leave YAW and PITCH out of --pose";
   }
   if (what != nullptr) throw std::invalid_argument(what);
-  line_->requireWith("--path", {"--path-pose"});
+  for (const char* of_path : {"--path", "--height"}) line_->requireWith(of_path, {"--path-pose"});
   requireThatMotionShows(rains);
   sensor_.requireSense(*line_);
   camera_.requireSense(options_.studio.bake);

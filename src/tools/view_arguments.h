@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/path/path.h"
 #include "sunlit/sky/weather.h"
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/studio.h"
@@ -70,6 +71,7 @@ class ViewArguments {
   studio::TopDown top_down_;
   int path_pose_ = 0;
   std::string path_file_;
+  path::PathOptions sampling_;
   Drive drive_;
   CameraWords camera_;
   SensorWords sensor_;

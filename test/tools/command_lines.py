@@ -39,7 +39,7 @@ SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV,
           "--mosaic": "none|rggb|bggr|grbg|gbrg", "--demosaic": "bilinear|vng|edge_aware"}
 SHUTTER = {"--line-delay": "0 … 1000 us, default 0", "--exposure-time": "0 … 1000 ms, default 0", "--exposures": "2 … 64, default 16"}
 VIEW = {**SENSOR, **SHUTTER, "--speed": "-1000 … 1000 m/s, default 0", "--turning": "-3600 … 3600 deg/s, default 0", "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
-        "--path": "CSV or TUM", "--top-down": "> 0 … 200000 m"}
+        "--path": "CSV or TUM", "--height": "-1000 … 1000 m, default 1", "--top-down": "> 0 … 200000 m"}
 # By detector, behind its name.
 SIFT = {"n-features": "0 … 1000000, default 0", "n-octave-layers": "1 … 10, default 3",
         "contrast-threshold": "0 … 1, default 0.04", "edge-threshold": "0.001 … 1000000, default 10",
@@ -87,7 +87,8 @@ OPTIONS = {
     "evaluate_trajectory": {"--truth": "timestamp tx ty tz qx qy qz qw", "--estimate": "of the same body",
                             "--out": "trajectory.csv", "--align": "none|se3|sim3|yaw",
                             "--max-difference": "0 … 1000000 s, default 0.01", "--delta": "default 1m,10m,1frame",
-                            "--map": "map.png", "--repeated-stamps": "refuse|first", "--pairs-from": "estimate|truth"},
+                            "--map": "map.png", "--repeated-stamps": "refuse|first", "--pairs-from": "estimate|truth",
+                            "--truth-of": "link|optical the body", "--estimate-of": "link|optical the body"},
     "evaluate_places": {"--out": "places.csv", "--map": "in the order of their names", "--query": "found in the map",
                         "--tolerance": "0 … 1000000000 frames, default 5",
                         "--features-cache-limit": "0 … 1000000 GB, default 2",

@@ -145,6 +145,27 @@ class EvaluatePair(unittest.TestCase):
         (row,), _ = self.evaluate("one", self.picture("a.png"), grey, "--detectors", "orb")
         self.assertEqual((row["repeatability"], row["mma_3px"], row["d"]), ("0", "0", "1"))
 
+    def test_an_experiment_keeps_its_verified_csv(self):
+        picture = self.picture("a.png")
+        verified = "pose,stamp,a,b,detector,features_a\n0,1,noon,dusk,orb,3\n"
+        for name, files, said in (
+                ("run", {"run.yaml": "settings:\n  metrics: 'all'\n", "frames.csv": "pose\n0\n", "verified.csv": "x\n"},
+                 ": this folder holds the results of an evaluation (run.yaml), which would be mixed with those of others; "
+                 "choose another\n"),
+                ("rest", {"verified.csv": verified},
+                 "/verified.csv: this is of an evaluation, which would lose it; choose another folder\n")):
+            os.mkdir(self.path(name))
+            for file, text in files.items():
+                self.write(name + "/" + file, text)
+            # Before anything is computed: there is no such picture.
+            for b in (picture, self.path("absent.png")):
+                self.assertEqual(self.refused("--out", self.path(name), picture, b),
+                                 "evaluate_pair: " + self.path(name) + said)
+            for file, text in files.items():
+                self.assertEqual(pathlib.Path(self.path(name), file).read_text(), text)
+        for _ in range(2):  # its own is made anew
+            self.evaluate("out", "--detectors", "orb", picture, picture)
+
     def test_bad_input_is_refused_by_what_is_wrong_and_where(self):
         picture = self.picture("a.png")
         out = ["--out", self.path("out")]

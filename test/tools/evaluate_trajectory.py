@@ -127,15 +127,43 @@ class EvaluateTrajectory(unittest.TestCase):
         self.assertEqual((done.returncode, self.table()["ate"]["max"]), (0, "0"))
         self.assertRegex(done.stdout, "estimate .*; 1 more left out, whose stamps repeat\n")
 
+    def test_how_many_stamps_repeat_is_said_also_where_nothing_can_be_evaluated(self):
+        first, second = bend(50)[:2]
+        estimate = self.write("estimate.txt", tum([first] * 40 + [second]))
+        said = "; %s has 2 poses; 39 more left out, whose stamps repeat\n" % estimate
+        for more, wrong in ((["--align", "se3"], "needs 3 pairs of poses, but has 2"), ([], "no pose of the estimate")):
+            done = self.evaluate(estimate, *more)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1))
+            self.assertIn(wrong, done.stderr)
+            self.assertTrue(done.stderr.endswith(said), done.stderr)
+            self.truth = self.write("late.txt", tum([(t + 100, x, y, z) for t, x, y, z in bend(50)]))
+
+    def test_nanoseconds_and_optical_frames_are_taken_for_what_they_are(self):
+        """What ORB-SLAM3 makes of EuRoC's form: truth of the link, estimate of the optical frame, z forward, in ns."""
+        turned = self.write("f_run.txt", "".join("%.6f %.9f %.9f %.9f -0.5 0.5 -0.5 0.5\n" % (round(t * 10) * 1e8, x, y, z)
+                                                 for t, x, y, z in bend(50)))
+        found = {}
+        for of in ("link", "optical"):
+            done = self.evaluate(turned, "--estimate-of", of)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            found[of] = self.table()
+            self.assertLess(float(found[of]["ate"]["max"]), 1e-8)
+        self.assertAlmostEqual(float(found["link"]["ate_deg"]["min"]), 120, 6)
+        self.assertLess(float(found["optical"]["ate_deg"]["max"]), 1e-5)
+        straight, self.truth = self.truth, turned
+        self.assertEqual(self.evaluate(straight, "--truth-of", "optical").returncode, 0)
+        self.assertLess(float(self.table()["ate_deg"]["max"]), 1e-5)
+        self.assertIn('--truth-of is "base", but must be one of link, optical', self.evaluate(straight, "--truth-of", "base").stderr)
+
     def test_the_map_is_read_before_anything_is_written(self):
         self.assertIn(self.path("map.yaml") + ": cannot be opened", self.evaluate(self.truth, "--map", self.folder).stderr)
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def write_bag(self, name, topics):
-        """`topics`: the class of the messages by topic; all tell of the bend."""
+    def write_bag(self, name, topics, spoil=lambda i, pose: None):
+        """`topics`: the class of the messages by topic; all tell of the bend, but for what `spoil` does to those of poses."""
         with rosbag.Bag(self.path(name), "w") as bag:
             paths = {topic: Path() for topic, kind in topics.items() if kind is Path}
-            for t, x, y, z in bend(50):
+            for i, (t, x, y, z) in enumerate(bend(50)):
                 stamp = rospy.Time.from_sec(t)
                 for topic, kind in topics.items():
                     message = PoseStamped() if kind is Path else kind()
@@ -145,6 +173,7 @@ class EvaluateTrajectory(unittest.TestCase):
                     where, turn = (place.translation, place.rotation) if kind is TransformStamped else (
                         place.position, place.orientation)
                     where.x, where.y, where.z, turn.w = x, y, z, 1.0
+                    spoil(i, place)
                     if kind is Path:  # sent anew as it grows
                         paths[topic].poses.append(message)
                         message = paths[topic]
@@ -163,6 +192,25 @@ class EvaluateTrajectory(unittest.TestCase):
         done = run("evaluate_trajectory", "--truth", bag + ":/truth", "--estimate", bag + ":/odom", "--out", self.path("out"))
         self.assertEqual((done.returncode, self.table()["ate"]["max"]), (0, "0"))
 
+    def test_poses_that_cannot_be_used_are_left_out_and_told_of(self):
+        def spoil(i, pose):
+            if i < 2:  # before it knows where it is
+                pose.orientation.w = 0.0
+            elif i == 30:
+                pose.position.y = float("nan")
+
+        bag = self.write_bag("run.bag", {"/odom": Odometry}, spoil)
+        said = ("; 3 more left out, which cannot be used, the first is /odom at 1000000000.000000000: pose.orientation has the "
+                "length 0.000000, but must be a quaternion of length 1\n")
+        done = self.evaluate(bag)
+        self.assertEqual((done.returncode, done.stderr, self.table()["ate"]["n"]), (0, "", "47"))
+        self.assertRegex(done.stdout, "estimate .* 47 poses, .* m" + re.escape(said))
+        done = run("evaluate_trajectory", "--truth", bag, "--estimate", self.truth, "--out", self.path("out"))
+        self.assertEqual((done.returncode, done.stderr, self.table()["ate"]["n"]), (0, "", "47"))
+        self.assertRegex(done.stdout, "truth .* 47 poses, .* m" + re.escape(said))
+        self.truth = self.write("late.txt", tum([(t + 100, x, y, z) for t, x, y, z in bend(50)]))
+        self.assertTrue(self.evaluate(bag).stderr.endswith("; %s has 47 poses%s" % (bag, said)))
+
     def test_which_topic_of_a_bag_is_said_or_there_is_but_one(self):
         bag = self.write_bag("run.bag", {"/truth": PoseStamped, "/odom": Odometry})
         topics = "topics of poses are: /odom (nav_msgs/Odometry), /truth (geometry_msgs/PoseStamped)\n"
@@ -176,8 +224,9 @@ class EvaluateTrajectory(unittest.TestCase):
         with rosbag.Bag(self.path("bad.bag"), "w") as bad:
             bad.write("/pose", PoseStamped(), rospy.Time(5))
             bad.write("/chatter", Header(), rospy.Time(5))
-        self.assertIn("/pose at 0.000000000: pose.orientation has the length 0.000000",
-                      self.evaluate(self.path("bad.bag:/pose")).stderr)
+        self.assertEqual("evaluate_trajectory: %s: holds no usable pose; 1 cannot be used, the first is /pose at 0.000000000: "
+                         "pose.orientation has the length 0.000000, but must be a quaternion of length 1\n" %
+                         self.path("bad.bag"), self.evaluate(self.path("bad.bag:/pose")).stderr)
         self.assertIn("/chatter is std_msgs/Header, not geometry_msgs/PoseStamped",
                       self.evaluate(self.path("bad.bag:/chatter")).stderr)
         self.assertIn("is not a bag that can be read", self.evaluate(self.path("gone.bag")).stderr)

@@ -216,6 +216,7 @@ class Timelapse(unittest.TestCase):
         for arguments, part in ((["--time", "18:30", "--sun", "180,30"], "--sun and --time"),
                                 (["--date", "2024-12-16"], "needs --time"), (["--time", "25:00"], "25:00"),
                                 (["--top-down", "0,0,9"], "leave out --pose"),
+                                (["--height", "0"], "--height needs --path-pose"),
                                 (["--look-at", "1,2,3", "--pose", "0,0,1,90"], "leave YAW and PITCH out"),
                                 (["--compensation", "1", "--ev", "9"], "--compensation needs --ev auto"),
                                 (["--hood", "50"], "--hood needs --glare too"), (["--demosaic", "vng"], "--demosaic needs --mosaic too"),
@@ -229,6 +230,21 @@ class Timelapse(unittest.TestCase):
             self.assertIn(part, done.stderr)
         done = run("snapshot", "--out", picture, "--top-down", "0,0,9", "--fov", "60")
         self.assertIn("leave out --fov", done.stderr)
+
+    def test_a_recorded_trajectory_is_a_path_by_its_own_height(self):
+        still = ["%d %s 0 1 0 0 0 1\n" % (i, x) for i, x in enumerate(("0", "0", "0.0005", "5", "5"))]
+        path = self.path("recorded.txt")
+        pathlib.Path(path).write_text("".join(still))
+        there, low, high = (self.path(name + ".png") for name in ("there", "low", "high"))
+        self.assertEqual(run("snapshot", *VIEW, "--out", there).returncode, 0)
+        on_path = ["snapshot", *VIEW[:2], *VIEW[4:], "--path", path, "--path-pose", "0"]
+        for picture, more in ((low, ["--height", "0"]), (high, [])):
+            done = run(*on_path, *more, "--out", picture)
+            self.assertEqual((done.returncode, done.stderr),
+                             (0, path + ": 3 poses left out, less than 1 mm in plan view from the one before\n"))
+        there, low, high = (pathlib.Path(picture).read_bytes() for picture in (there, low, high))
+        self.assertEqual(low, there)
+        self.assertNotEqual(high, there)
 
     def test_a_room_by_its_lamps_looks_as_by_traced_paths(self):
         # Polished floor, mirror, window pane, a panel in the ceiling and a lamp on the table.

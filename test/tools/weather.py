@@ -96,6 +96,21 @@ class Weather(unittest.TestCase):
             if "depth" in name or name.endswith("groundtruth.txt"):
                 self.assertEqual(clear[name].read_bytes(), grey[name].read_bytes(), name)
 
+    def test_broken_clouds_drift_through_a_data_set_by_its_stamps(self):
+        # Ten seconds and a millimetre from pose to pose.
+        def pictures(name, *more):
+            out = self.folder / name
+            done = run("export_dataset", "--format", "tum", str(out), *CAMERA, *EXPOSED, "--path", self.path, "--spacing", "0.001",
+                       "--rate", "0.1", "--cover", "4", "--cloud-seed", "3", *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return [cv2.imread(str(file)).astype(float) for file in sorted(out.glob("rgb/*.png"))]
+        moving, standing = pictures("moving", "--wind", "100", "--count", "5"), pictures("standing", "--count", "5")
+        steps = [[abs(a - b).mean() for a, b in zip(one, one[1:])] for one in (moving, standing)]
+        self.assertEqual([len(of_run) for of_run in steps], [4, 4])
+        self.assertGreater(min(steps[0]), 10.0 * max(steps[1]) + 0.5, steps)
+        (third,) = pictures("third", "--wind", "100", "--first", "2", "--count", "1")
+        self.assertEqual(abs(third - moving[2]).max(), 0)
+
     def test_atlas(self):
         clear, grey = self.files("atlas", *CAMERA, *EXPOSED, "--pictures", "false", "--path", self.path, "--count", "2", "--hours",
                                  "8,16", "--detectors", "orb", "--unit-poses", "2")

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -96,9 +97,11 @@ inline Field speedRow(std::optional<double>* place) {
 Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, const Pace& pace);
 
 /// Waypoints from a file: CSV (x,y,z or x,y a line, m; an optional header line; # comments) or TUM trajectory
-/// (timestamp tx ty tz qx qy qz qw, blank-separated; the orientation is not used). Which of the two is told
-/// by commas. Throws std::runtime_error with path, line and what is wrong there; all that posesAlong checks
-/// is checked here too.
-Waypoints readWaypoints(const std::string& file);
+/// (timestamp tx ty tz qx qy qz qw, blank-separated; the orientation is not used, and z is taken for the
+/// ground's, so that of a camera's own trajectory PathOptions::height_m is 0). Which of the two is told by
+/// commas. Throws std::runtime_error with path, line and what is wrong there; all that posesAlong checks is
+/// checked here too, but poses of a trajectory less than 1 mm from the last before are left out, since what
+/// was recorded stands still at its ends: `told` hears how many, in a line, where there are some.
+Waypoints readWaypoints(const std::string& file, const std::function<void(const std::string&)>& told = {});
 
 }  // namespace sunlit::path

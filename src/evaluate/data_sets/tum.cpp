@@ -25,10 +25,13 @@ std::string poseOf(const DataSetFrame& frame) {
 }
 
 std::vector<TextFile> tumTexts(const DataSetOptions& options, const std::vector<DataSetFrame>& frames) {
-  TextFile rgb{"rgb.txt", "# color images\n# timestamp filename\n"};
-  TextFile depth{"depth.txt", "# depth maps\n# timestamp filename\n"};
+  // Three lines before the first number, as in TUM's own: there are readers that skip so many unread.
+  const std::string by = "# file: made by sunlit\n";
+  TextFile rgb{"rgb.txt", "# color images\n" + by + "# timestamp filename\n"};
+  TextFile depth{"depth.txt", "# depth maps\n" + by + "# timestamp filename\n"};
   TextFile both{"associations.txt", ""};
   TextFile truth{"groundtruth.txt",
+                 "# ground truth trajectory\n"
                  "# of the camera's optical frame (z forward, x right, y down), in map\n"
                  "# timestamp tx ty tz qx qy qz qw\n"};
   for (const DataSetFrame& frame : frames) {

@@ -31,6 +31,8 @@ struct Form {
 
 const Form kTum = {
     {"timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"}, 4, 5, 6, 7, 9, "a number of seconds"};
+/// As ORB-SLAM3 writes it by SaveTrajectoryEuRoC().
+const Form kTumOfNanoseconds = {kTum.columns, kTum.x, kTum.y, kTum.z, kTum.w, 0, "a number of nanoseconds"};
 const Form kEuroc = {
     {"timestamp", "x", "y", "z", "qw", "qx", "qy", "qz"}, 5, 6, 7, 4, 0, "a number of nanoseconds"};
 constexpr std::size_t kLeastColumns = 8;
@@ -120,13 +122,15 @@ class Reader {
   std::string columns() const {
     std::string names;
     for (const std::string& name : form_->columns) names += (names.empty() ? "" : " ") + name;
-    return names + (form_ == &kTum ? " (s, m)" : " … (ns, m)");
+    return names + (form_ == &kEuroc ? " …" : "") + (form_->digits == 0 ? " (ns, m)" : " (s, m)");
   }
 
   /// By the first line; all others are of the same.
-  void chooseForm(std::size_t found, bool has_commas) {
-    if (has_commas && found == kEurocColumns) form_ = &kEuroc;
-    columns_ = form_ == &kEuroc ? std::max(found, kLeastColumns) : kLeastColumns;
+  void chooseForm(const Fields& fields, bool has_commas) {
+    if (has_commas && fields.size() == kEurocColumns) form_ = &kEuroc;
+    const auto fits = [&](const Form& form) { return scaledWhole(fields[0], form.digits).has_value(); };
+    if (form_ == &kTum && !fits(kTum) && fits(kTumOfNanoseconds)) form_ = &kTumOfNanoseconds;
+    columns_ = form_ == &kEuroc ? std::max(fields.size(), kLeastColumns) : kLeastColumns;
   }
 
   std::int64_t stamp(const std::string& text) const {
@@ -154,7 +158,7 @@ class Reader {
   void readLine(const std::string& line) {
     const bool has_commas = line.find(',') != std::string::npos;
     const Fields fields = has_commas ? splitAtCommas(line) : splitAtBlanks(line);
-    if (columns_ == 0) chooseForm(fields.size(), has_commas);
+    if (columns_ == 0) chooseForm(fields, has_commas);
     if (fields.size() != columns_) {
       fail("has " + std::to_string(fields.size()) + (fields.size() == 1 ? " column" : " columns") +
            ", but must have " + std::to_string(columns_) + ": " + columns());

@@ -2,6 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include <fstream>
+#include <stdexcept>
+
 #include "evaluate/files/pair_rows.h"
 #include "evaluate/verify/measures.h"
 #include "sunlit/image/files.h"
@@ -9,8 +12,12 @@
 namespace sunlit::evaluate {
 namespace {
 
+/// The columns of a run that come before those of a pair.
+constexpr const char* kOfRun = "pose,stamp,";
+constexpr const char* kOfPair = "a,b,detector";
+
 std::string header() {
-  std::string text = "a,b,detector";
+  std::string text = kOfPair;
   for (const Measure& measure : measures()) text += "," + measure.name;
   return text;
 }
@@ -45,8 +52,17 @@ void writeVerified(const std::string& path, const std::vector<VerifiedRow>& rows
   image::writeFileAtomically(path, text);
 }
 
+void requireNoneOfRun(const std::string& path) {
+  std::ifstream file(path);
+  std::string heading;
+  // Other versions may have other measures.
+  if (!std::getline(file, heading) || heading.rfind(std::string(kOfRun) + kOfPair, 0) != 0) return;
+  throw std::invalid_argument(path +
+                              ": this is of an evaluation, which would lose it; choose another folder");
+}
+
 std::string verifiedHeader() {
-  return "pose,stamp," + header();
+  return kOfRun + header();
 }
 
 std::string verifiedText(const FramesLayout& layout, const VerifiedRecord& record) {

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "ros/conversions/geometry.h"
@@ -76,12 +77,16 @@ std::string topicIn(const rosbag::Bag& bag, const NamedTopic& named) {
                            "; topics of poses are: " + listed);
 }
 
-StampedPose stampedPoseOf(const PoseMessage& message, const std::string& topic) {
+/// Nothing, and noted, where it is unusable.
+std::optional<StampedPose> stampedPoseOf(const PoseMessage& message, const std::string& topic,
+                                         LeftOutPoses* left_out) {
   try {
     const Eigen::Isometry3d pose = fromPose(message.pose);
-    return {message.stamp_ns, pose.translation(), Eigen::Quaterniond(pose.linear())};
+    return StampedPose{message.stamp_ns, pose.translation(), Eigen::Quaterniond(pose.linear())};
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(topic + " at " + textOfStamp(timeOf(message.stamp_ns)) + ": " + error.what());
+    if (left_out->unusable++ == 0)
+      left_out->first_unusable = topic + " at " + textOfStamp(timeOf(message.stamp_ns)) + ": " + error.what();
+    return std::nullopt;
   }
 }
 
@@ -128,7 +133,7 @@ bool isOfBag(const std::string& named) {
   return std::filesystem::path(namedTopic(named).bag).extension() == ".bag";
 }
 
-Trajectory readBagTrajectory(const std::string& named, std::vector<std::int64_t>* repeated) {
+Trajectory readBagTrajectory(const std::string& named, LeftOutPoses* left_out) {
   const NamedTopic chosen = namedTopic(named);
   const std::unique_ptr<rosbag::Bag> bag = openBag(chosen.bag);
   const std::string topic = topicIn(*bag, chosen);
@@ -138,12 +143,17 @@ Trajectory readBagTrajectory(const std::string& named, std::vector<std::int64_t>
                    [](const PoseMessage& a, const PoseMessage& b) { return a.stamp_ns < b.stamp_ns; });
   Trajectory trajectory;
   for (const PoseMessage& message : messages) {
-    if (trajectory.empty() || message.stamp_ns != trajectory.back().stamp_ns) {
-      trajectory.push_back(stampedPoseOf(message, chosen.bag + ": " + topic));
+    const std::optional<StampedPose> pose = stampedPoseOf(message, topic, left_out);
+    if (!pose) continue;
+    if (trajectory.empty() || pose->stamp_ns != trajectory.back().stamp_ns) {
+      trajectory.push_back(*pose);
     } else {
-      repeated->push_back(message.stamp_ns);
+      left_out->repeated.push_back(pose->stamp_ns);
     }
   }
+  if (trajectory.empty())
+    throw std::runtime_error(chosen.bag + ": holds no usable pose; " + std::to_string(left_out->unusable) +
+                             " cannot be used, the first is " + left_out->first_unusable);
   return trajectory;
 }
 

@@ -21,14 +21,21 @@ struct PoseMessage {
 /// Throws std::runtime_error naming topic and type for another message.
 PoseMessage poseMessageOf(const rosbag::MessageInstance& instance);
 
+/// Poses that are there, but do not count.
+struct LeftOutPoses {
+  std::vector<std::int64_t> repeated;  ///< stamps that one before has, ns
+  std::size_t unusable = 0;            ///< not finite, or of a quaternion that is not of unit length
+  std::string first_unusable;          ///< by topic and stamp, and why
+};
+
 /// What a bag's topic says: a message a pose, as above, or the last nav_msgs/Path, which SLAM systems send
-/// anew as it grows. By rising stamp; of poses of one stamp the first counts, and the stamps of the others go
-/// to `repeated`.
+/// anew as it grows. By rising stamp; unusable poses, such as systems send before they know where they are,
+/// are left out, and of those of one stamp the first counts. `left_out` tells of the others.
 ///
 /// `named` is "BAG" or "BAG:TOPIC"; without a topic the only one that brings poses. Throws std::runtime_error
 /// for a bag that cannot be read, a topic that it does not hold, several where none was named (all are
-/// listed), no pose, and a pose that is not finite or whose quaternion is not of unit length.
-evaluate::Trajectory readBagTrajectory(const std::string& named, std::vector<std::int64_t>* repeated);
+/// listed), and no usable pose.
+evaluate::Trajectory readBagTrajectory(const std::string& named, LeftOutPoses* left_out);
 
 /// As readBagTrajectory() takes it: ends in ".bag", or in ".bag:" and a topic.
 bool isOfBag(const std::string& named);

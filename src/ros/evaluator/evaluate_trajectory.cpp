@@ -9,10 +9,12 @@
 
 #include "ros/evaluator/bag_trajectory.h"
 #include "ros/evaluator/folder_lock.h"
+#include "ros/evaluator/view_topics.h"
 #include "sunlit/evaluate/trajectory/draw_trajectory.h"
 #include "sunlit/evaluate/trajectory/trajectory_evaluation.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/frames.h"
 #include "sunlit/studio/command_line.h"
 
 namespace {
@@ -21,8 +23,15 @@ using namespace sunlit;
 using namespace sunlit::evaluate;
 using namespace sunlit::ros_interface;
 
+/// A trajectory as people name it.
+struct Named {
+  std::string file;
+  PosesOf of = PosesOf::kLink;
+};
+
 struct Options {
-  std::string truth, estimate, output;
+  Named truth, estimate;
+  std::string output;
   std::string map;  ///< folder; empty: none
   bool takes_first_of_stamp = true;
   TrajectoryOptions evaluation;
@@ -48,10 +57,13 @@ std::optional<Options> parse(const std::vector<std::string>& arguments) {
       "evaluate_trajectory: absolute and relative errors of an estimated trajectory. Needs no ROS master.",
       "evaluate_trajectory --out DIR --truth FILE --estimate FILE [options]");
   const std::string forms =
-      "TUM (timestamp tx ty tz qx qy qz qw, s and m), ground truth of EuRoC, or run.bag:TOPIC of Odometry, "
+      "TUM (timestamp tx ty tz qx qy qz qw, s and m; ns where the first stamp is beyond 9.2e9), ground truth "
+      "of EuRoC, or run.bag:TOPIC of Odometry, "
       "PoseStamped, PoseWithCovarianceStamped, TransformStamped or Path (the last counts)";
-  line.add("--truth FILE", {"truth", &options.truth, "", {}, forms});
-  line.add("--estimate FILE", {"estimate", &options.estimate, "", {}, "as the truth; of the same body"});
+  line.add("--truth FILE", {"truth", &options.truth.file, "", {}, forms});
+  line.add("--estimate FILE", {"estimate", &options.estimate.file, "", {}, "as the truth; of the same body"});
+  line.add("--truth-of", bodyRow("truth_of", &options.truth.of));
+  line.add("--estimate-of", bodyRow("estimate_of", &options.estimate.of));
   line.add(
       "--out DIR",
       {"out", &options.output, "", {}, "folder for trajectory.csv, trajectory_poses.csv and trajectory.png"});
@@ -81,29 +93,47 @@ std::optional<Options> parse(const std::vector<std::string>& arguments) {
   return options;
 }
 
-/// A trajectory and what it is called.
+/// Of camera_link what is of its optical frame.
+Trajectory ofLink(Trajectory poses) {
+  const Eigen::Quaterniond optical_from_link(linkFromOptical().linear().transpose());
+  for (StampedPose& pose : poses) pose.orientation = (pose.orientation * optical_from_link).normalized();
+  return poses;
+}
+
+/// A trajectory, of the link, and what it is called.
 struct Input {
-  Input(std::string the_name, const std::string& the_file, bool takes_first_of_stamp)
+  Input(std::string the_name, const Named& named, bool takes_first_of_stamp)
       : name(std::move(the_name)),
-        file(the_file),
-        poses(isOfBag(the_file) ? readBagTrajectory(the_file, &repeated)
-                                : readTrajectory(the_file, takes_first_of_stamp ? &repeated : nullptr)) {
-    if (!takes_first_of_stamp && !repeated.empty()) {
+        file(named.file),
+        poses(isOfBag(file) ? readBagTrajectory(file, &left_out)
+                            : readTrajectory(file, takes_first_of_stamp ? &left_out.repeated : nullptr)) {
+    if (named.of == PosesOf::kOptical) poses = ofLink(std::move(poses));
+    if (!takes_first_of_stamp && !left_out.repeated.empty()) {
       throw std::runtime_error(
-          file + ": " + std::to_string(repeated.size()) +
+          file + ": " + std::to_string(left_out.repeated.size()) +
           " poses have the stamp of the one before; --repeated-stamps first leaves them out");
     }
+  }
+
+  /// In words; empty where that is nothing.
+  std::string leftOut() const {
+    std::string text;
+    if (!left_out.repeated.empty())
+      text += "; " + std::to_string(left_out.repeated.size()) + " more left out, whose stamps repeat";
+    if (left_out.unusable > 0)
+      text += "; " + std::to_string(left_out.unusable) +
+              " more left out, which cannot be used, the first is " + left_out.first_unusable;
+    return text;
   }
 
   void tell(std::size_t without_partner) const {
     std::printf("%-8s  %s: %zu poses, %.3f m", name.c_str(), file.c_str(), poses.size(), lengthOf(poses));
     if (without_partner > 0) std::printf("; %zu without a partner", without_partner);
-    if (!repeated.empty()) std::printf("; %zu more left out, whose stamps repeat", repeated.size());
-    std::printf("\n");
+    std::printf("%s\n", leftOut().c_str());
   }
 
   std::string name, file;
-  std::vector<std::int64_t> repeated;
+  LeftOutPoses left_out;
   Trajectory poses;
 };
 
@@ -125,12 +155,30 @@ void tellRows(const std::vector<TrajectoryRow>& rows) {
   }
 }
 
+/// Where that fails, poses that were left out may be why.
+TrajectoryEvaluation evaluationOf(const Input& truth, const Input& estimate,
+                                  const TrajectoryOptions& options) {
+  try {
+    return evaluateTrajectory(truth.poses, estimate.poses, options);
+  } catch (const std::invalid_argument& error) {
+    std::string text = error.what();
+    for (const Input* input : {&truth, &estimate}) {
+      const std::string words = input->leftOut();
+      if (words.empty()) continue;
+      const std::size_t count = input->poses.size();
+      text +=
+          "; " + input->file + " has " + std::to_string(count) + (count == 1 ? " pose" : " poses") + words;
+    }
+    throw std::invalid_argument(text);
+  }
+}
+
 void run(const Options& options) {
   const Input truth("truth", options.truth, options.takes_first_of_stamp);
   const Input estimate("estimate", options.estimate, options.takes_first_of_stamp);
   std::optional<MapPicture> map;
   if (!options.map.empty()) map = readMapPicture(options.map);
-  const TrajectoryEvaluation evaluation = evaluateTrajectory(truth.poses, estimate.poses, options.evaluation);
+  const TrajectoryEvaluation evaluation = evaluationOf(truth, estimate, options.evaluation);
   const FolderLock lock(options.output);
   writeTrajectoryTable(options.output + "/trajectory.csv", evaluation);
   writePoseErrors(options.output + "/trajectory_poses.csv", truth.poses, estimate.poses, evaluation);

@@ -2,6 +2,14 @@
 
 namespace sunlit::ros_interface {
 
+Field bodyRow(const std::string& key, PosesOf* place) {
+  return {key,
+          choiceOf(place, {"link", "optical"}),
+          "",
+          {},
+          "the body that the poses are of: link has x forward, optical z forward and x right"};
+}
+
 std::vector<Field> fieldsOf(ViewTopics& topics) {
   return {{"images",
            &topics.images,
@@ -23,11 +31,7 @@ std::vector<Field> fieldsOf(ViewTopics& topics) {
            "likewise instead of camera/pose: PoseStamped, PoseWithCovarianceStamped, Odometry or "
            "TransformStamped, "
            "of the camera in a frame that stands still"},
-          {"poses_of",
-           choiceOf(&topics.poses_of, {"link", "optical"}),
-           "",
-           {},
-           "the body that the poses are of: link has x forward, optical z forward and x right"},
+          bodyRow("poses_of", &topics.poses_of),
           {"stamp_tolerance",
            &topics.stamp_tolerance_s,
            "s",

@@ -14,6 +14,9 @@ enum class PosesOf {
   kOptical  ///< z forward, x right, y down, as TUM's data sets and COLMAP have it
 };
 
+/// What people may ask for, kept at `place`.
+Field bodyRow(const std::string& key, PosesOf* place);
+
 struct ViewTopics {
   std::string name_space = "/";  ///< <name_space>/<stream>/camera/image_raw, <name_space>/camera/pose, …
   /// Topics of bags that call them otherwise; empty: as sunlit does. A bag that holds `images` has that

@@ -21,7 +21,7 @@ PathSource::PathSource(ros::NodeHandle node, const PathSourceOptions& options, c
   if (!options_.topic.empty()) {
     subscriber_ = node.subscribe(options_.topic, 1, &PathSource::onPath, this);
   } else if (!options_.file.empty()) {
-    sample(path::readWaypoints(options_.file));
+    sample(path::readWaypoints(options_.file, [](const std::string& line) { ROS_INFO("%s", line.c_str()); }));
   } else {
     sample(scene::raceTrackWaypoints());
   }

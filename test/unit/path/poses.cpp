@@ -129,7 +129,7 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
             "waypoint 0: from here to the next are 20000.000000 m, more poses than the 10 million allowed");
   // Straight above each other is no direction to look in, either.
   EXPECT_EQ(messageOf({{0, 0, 0}, {1, 0, 0}, {1, 0.0009, 5}}),
-            "waypoint 2: it is less than 1 mm from the waypoint before it in plan view");
+            "waypoint 2: it is less than 1 mm from the waypoint before it in plan view; leave it out");
 }
 
 TEST(MotionAt, IsOfOneSpeedAndTurnsWithinASpacing) {

@@ -89,7 +89,39 @@ TEST_F(WaypointFile, NeedsTwoDifferentPoints) {
   EXPECT_EQ(errorOf("x,y,z\n"), ":1: a path needs two waypoints or more, there are 0");
   EXPECT_EQ(errorOf("1,2,3\n"), ":1: a path needs two waypoints or more, there is 1");
   EXPECT_EQ(errorOf("1,2,3\n4,5,6\n4,5,6\n"),
-            ":3: it is less than 1 mm from the waypoint before it in plan view");
+            ":3: it is less than 1 mm from the waypoint before it in plan view; leave it out");
+}
+
+std::string tumOf(const std::vector<std::string>& places) {
+  std::string text;
+  for (std::size_t i = 0; i < places.size(); ++i) text += std::to_string(i) + " " + places[i] + " 0 0 0 1\n";
+  return text;
+}
+
+// Recorded ones stand still at their ends; those that creep lose no way.
+TEST_F(WaypointFile, TumTrajectoriesMayStandStill) {
+  std::ofstream(path_) << tumOf({"0 0 1", "0 0 1", "0 0.0009 1.5", "0.0006 0.0009 1", "1 0 1", "1 0 1"});
+  std::vector<std::string> told;
+  const Waypoints waypoints =
+      readWaypoints(path_.string(), [&](const std::string& line) { told.push_back(line); });
+  ASSERT_EQ(waypoints.size(), 3u);
+  EXPECT_EQ(waypoints[1], Eigen::Vector3d(0.0006, 0.0009, 1));
+  EXPECT_EQ(waypoints[2], Eigen::Vector3d(1, 0, 1));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0], path_.string() + ": 3 poses left out, less than 1 mm in plan view from the one before");
+  EXPECT_EQ(posesAlong(waypoints, {}).size(), 2u);
+  EXPECT_EQ(read(tumOf({"0 0 1", "0 0 1", "1 0 1"})).size(), 2u) << "nobody listens";
+}
+
+TEST_F(WaypointFile, OfTumNothingIsToldWhereNothingStands) {
+  std::ofstream(path_) << tumOf({"0 0 1", "1 0 1"});
+  readWaypoints(path_.string(), [](const std::string& line) { ADD_FAILURE() << line; });
+  EXPECT_EQ(
+      errorOf(tumOf({"0 0 1", "0 0 1"})),
+      ":2: a path needs two waypoints or more, there is 1; 1 pose left out, less than 1 mm in plan view "
+      "from the one before");
+  EXPECT_EQ(errorOf(tumOf({"0 0 1", "0 0 1e9"})),
+            ":2: z is 1000000000, but must be from -10000000 to 10000000 m");
 }
 
 TEST(WaypointFiles, AMissingOneIsNamed) {

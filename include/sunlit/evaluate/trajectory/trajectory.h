@@ -24,15 +24,17 @@ inline constexpr double kQuaternionTolerance = 1e-3;
 
 /// The poses of a file. Two forms, of lines that may have blanks, tabs or commas between their columns; #
 /// starts a comment:
-///  - TUM: timestamp tx ty tz qx qy qz qw, in s and m;
+///  - TUM: timestamp tx ty tz qx qy qz qw, in s and m; in ns where the first stamp is beyond ±9.2e9, more
+///  than
+///    seconds can be, as ORB-SLAM3's SaveTrajectoryEuRoC() has it;
 ///  - EuRoC ground truth: timestamp, x, y, z, qw, qx, qy, qz and further columns, which are not used, in ns
 ///    and m; told by a comment ahead of the first pose that names q_RS_w, as their own files have it, or by
 ///    17 columns with commas.
 /// Stamps keep every nanosecond, in whatever form ("1403715529.112143517", "1.403715529112143517e+09");
 /// finer digits are rounded. Throws std::runtime_error "file:line: what, and what is expected" for a line of
 /// another form, a number that is not finite, a coordinate beyond ±1e9 m, a stamp that is not above the one
-/// before or beyond ±9.2e9 s, a quaternion that is not of unit length; and for a file that cannot be read or
-/// holds no pose.
+/// before or beyond ±9.2e9 s in the unit of the file, a quaternion that is not of unit length; and for a file
+/// that cannot be read or holds no pose.
 ///
 /// Some published files, such as the truth of TUM's freiburg2_desk, have a stamp twice. With `repeated` poses
 /// after the first of a stamp are left out, and their stamps added to it, instead of an error.

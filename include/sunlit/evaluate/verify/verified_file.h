@@ -23,6 +23,9 @@ struct VerifiedRow {
 /// numbers with 17 digits, `nan` where undefined, as in frames.csv. Leaves the whole file or what was there.
 /// Throws std::runtime_error with path and reason.
 void writeVerified(const std::string& path, const std::vector<VerifiedRow>& rows);
+/// Throws std::invalid_argument, naming it, where `path` is the verified.csv of a run, see below, of this
+/// version or another: writeVerified() would put its rows in the place of those.
+void requireNoneOfRun(const std::string& path);
 
 /// Of one pair of one pose, by detector; FramesLayout::differences are the names of the detectors.
 using VerifiedRecord = PairValues<Verified>;

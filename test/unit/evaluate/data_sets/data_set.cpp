@@ -80,6 +80,27 @@ TEST_F(DataSets, TruthOfTumIsOfTheOpticalFrame) {
   expectTrajectory(readTrajectory(file("groundtruth.txt")), helix(20), linkFromOptical());
 }
 
+/// How many lines of comment stand before the first other one, of which there are as many as `data`.
+int commentsBefore(const std::string& text, int data) {
+  std::istringstream lines(text);
+  int comments = 0, others = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_comment = line[0] == '#';
+    EXPECT_FALSE(is_comment && others > 0) << line;
+    (is_comment ? comments : others) += 1;
+  }
+  EXPECT_EQ(others, data);
+  return comments;
+}
+
+// ORB-SLAM's mono_tum skips three lines, whatever they are.
+TEST_F(DataSets, ThreeLinesStandBeforeTheDataOfTum) {
+  folder(DataSetFormat::kTum, optionsOf(16, 16)).finish(helix(20));
+  for (const char* name : {"rgb.txt", "depth.txt", "groundtruth.txt"})
+    EXPECT_EQ(commentsBefore(contentOf(file(name)), 20), 3) << name;
+  EXPECT_EQ(commentsBefore(contentOf(file("associations.txt")), 20), 0);
+}
+
 TEST_F(DataSets, TruthOfEurocIsOfTheLink) {
   folder(DataSetFormat::kEuroc, optionsOf(16, 16)).finish(helix(20));
   const Trajectory truth = readTrajectory(file("mav0/state_groundtruth_estimate0/data.csv"));

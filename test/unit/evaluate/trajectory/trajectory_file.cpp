@@ -67,6 +67,25 @@ TEST_F(TrajectoryFile, EurocHasNanosecondsAndTheScalarFirst) {
   expectPose(by_columns[0], 7, {1, 2, 3}, {0, 0, 1, 0});
 }
 
+// As ORB-SLAM3 writes what it made of EuRoC's pictures.
+TEST_F(TrajectoryFile, TumHasNanosecondsWhereSecondsCannotBeSoMany) {
+  const Trajectory poses = read(
+      "1403715524907143168.000000 1 2 3 0 0 0 1\n"
+      "1403715524957143040.000000 4 5 6 0 0 1 0\n");
+  ASSERT_EQ(poses.size(), 2u);
+  expectPose(poses[0], 1403715524907143168, {1, 2, 3}, {1, 0, 0, 0});
+  expectPose(poses[1], 1403715524957143040, {4, 5, 6}, {0, 0, 0, 1});
+  EXPECT_EQ(stampOf("1000100000000.000000"), 1000100000000);
+  EXPECT_EQ(stampOf("-1000100000000"), -1000100000000);
+  EXPECT_EQ(stampOf("9.3e9"), 9300000000);
+  // By the first, for the whole file.
+  EXPECT_EQ(read("1000100000000 0 0 0 0 0 0 1\n1.0002e12 0 0 0 0 0 0 1\n").size(), 2u);
+  EXPECT_EQ(errorOf("1000100000000 0 0 0 0 0 0 1\n1 0 0\n"),
+            ":2: has 3 columns, but must have 8: timestamp tx ty tz qx qy qz qw (ns, m)");
+  EXPECT_EQ(errorOf("1 0 0 0 0 0 0 1\n1000100000000 0 0 0 0 0 0 1\n"),
+            ":2: timestamp is \"1000100000000\", but must be a number of seconds within ±9.2e9 s");
+}
+
 TEST_F(TrajectoryFile, StampsKeepEveryNanosecond) {
   EXPECT_EQ(stampOf("1403715529.112143517"), 1403715529112143517);
   EXPECT_EQ(stampOf("1.403715529112143517e+09"), 1403715529112143517);
@@ -116,7 +135,7 @@ TEST_F(TrajectoryFile, NamesWhatIsNoNumber) {
             ":1: tx is \"1.1e9\", but must be from -1000000000 to 1000000000");
   EXPECT_EQ(errorOf("0,,0,0,0,0,0,1\n"), ":1: tx is \"\", but must be from -1000000000 to 1000000000");
   for (const std::string stamp :
-       {"nan", "1.0s", "1e", "e5", ".", "-", "1e+-2", "0x10", "1e999", "1403715524907143168"})
+       {"nan", "1.0s", "1e", "e5", ".", "-", "1e+-2", "0x10", "1e999", "1403715524907143168000000000"})
     EXPECT_EQ(errorOf(stamp + " 0 0 0 0 0 0 1\n"),
               ":1: timestamp is \"" + stamp + "\", but must be a number of seconds within ±9.2e9 s");
 }
