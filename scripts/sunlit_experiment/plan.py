@@ -5,12 +5,15 @@ came) is given.
 """
 
 import dataclasses
+import math
 
 from sunlit_experiment import arguments as read
 from sunlit_experiment import recording
 
 START_STAMP_S = 1000.0
 FRAME_RATE_HZ = 10.0
+DEGREES_PER_HOUR = 15
+FAR_FROM_NOON_H = 1.5
 EVALUATOR, RECORDER = "/evaluator", "/" + recording.NODE  # nodes
 # What the evaluator writes down beside its results, as it was typed.
 ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "conditions", "spacing", "offset", "yaw", "exposure", "ev100",
@@ -65,6 +68,22 @@ def _check_effect(typed, given):
         raise read.BadArgument("ev100", typed["ev100"], "left out where exposure is auto")
     if "noise_seed" in given and not any(one.get("noise", read.flag("noise", typed["noise"])) for one in ones):
         raise read.BadArgument("noise_seed", typed["noise_seed"], "left out where noise is false")
+
+
+def notes(typed, given=()):
+    """Lines about what is likely not meant, but is no fault; `typed` and `given` as above."""
+    return [line for line in (read.unused_features(typed["features"], typed["differences"]), _other_zone(typed, given)) if line]
+
+
+def _other_zone(typed, given):
+    """That nobody said of what time zone the hours are, where by that of the default the sun is highest far from 12:00."""
+    zone = read.date_time(typed["date"], typed["timezone"])["timezone"]
+    late = math.remainder(zone - read.site(typed["site"])["longitude"] / DEGREES_PER_HOUR, 24)  # the sun's noon, after 12:00
+    if "timezone" in given or abs(late) <= FAR_FROM_NOON_H:
+        return ""
+    hour, quarter = divmod(round((12 + late) * 4) % 96, 4)  # no finer: the sun itself is up to 17 minutes late or early
+    return (f"hours are of UTC{zone:+g}; the sun is highest there at about {hour:02d}:{quarter * 15:02d}: argument timezone gives "
+            "another zone")
 
 
 def conditions(typed):

@@ -89,6 +89,12 @@ class Output:
     timing: list
 
     @property
+    def settings(self):
+        """Those of run.yaml; empty where it tells none."""
+        found = self.run.get("settings")
+        return found if isinstance(found, dict) else {}
+
+    @property
     def pairs(self):
         """Pairs of different conditions, in the order of the file."""
         return [pair for pair in self.all_pairs if not is_self_test(*pair)]

@@ -3,7 +3,7 @@
 import dataclasses
 import math
 
-from . import names, paper
+from . import circumstances, names, paper
 from .files import is_self_test
 
 REPRODUCED, NOT_REPRODUCED, NOT_JUDGED = "reproduced", "not reproduced", "cannot be judged"
@@ -67,7 +67,7 @@ def verdict_of_all(findings, output):
     poses = len(output.poses)
     if poses < FEW * paper.POSES:
         text += f", by {poses} poses; the paper's findings are those of {paper.POSES}"
-    return text
+    return text + circumstances.reserve(output)
 
 
 def _judged(output, claim, criterion, rule):

@@ -103,7 +103,7 @@ def settings(output):
         top["drawn by"] = output.rasterizer
     if output.ground_albedo is not None:
         top["albedo of the land around the world"] = output.ground_albedo
-    for key, value in tables.flattened(tables.mapping(output.run, "settings")) + tables.flattened(top):
+    for key, value in tables.flattened(output.settings) + tables.flattened(top):
         group, _, rest = key.rpartition("/")
         groups.setdefault(group or "general", []).append((rest, value))
     return sorted(groups.items(), key=lambda item: (item[0] != "general", not item[0].startswith("about"), item[0]))

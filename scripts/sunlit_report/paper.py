@@ -1,12 +1,33 @@
 """What the published experiment measured: R. Sultanov, R. Safin, E. A. Martinez-Garcia, E. Magid, "Modeling Sunlight in
 Gazebo for Vision-Based Applications Under Varying Light Conditions", ICINCO 2024, pp. 519-526."""
 
+import datetime
+
 CITATION = ("R. Sultanov, R. Safin, E. A. Martínez-García, E. Magid: Modeling Sunlight in Gazebo for Vision-Based "
             "Applications Under Varying Light Conditions. ICINCO 2024, pp. 519–526, doi:10.5220/0013068700003822")
 
 POSES = 991
 MORNING, NOON, EVENING = "h04", "h12", "h20"
+HOUR_OF = {MORNING: 4, NOON: 12, EVENING: 20}
 PAIRS = [(MORNING, NOON), (MORNING, EVENING), (NOON, EVENING)]
+
+# By what it was taken, as experiment.launch calls it: of one camera without faults, under a clear sky.
+DATE = datetime.date(2024, 7, 1)
+LIGHT = {"date": DATE, "site": [55.792115, 49.122254, 90], "timezone": 3, "exposure": "fixed"}
+CAMERA = {"noise": False, "vignetting": "none", "glare": 0, "blur": 0, "mosaic": "none", "line_delay": 0, "exposure_time": 0}
+PIXELS = "640 x 480"
+# How it was compared, as the evaluator's parameters: detectors have OpenCV's defaults.
+MATCHING = {
+    "ratio": 0.5, "inclusive": False,
+    "features/sift/n_features": 0, "features/sift/n_octave_layers": 3, "features/sift/contrast_threshold": 0.04,
+    "features/sift/edge_threshold": 10, "features/sift/sigma": 1.6,
+    "features/surf/hessian_threshold": 100, "features/surf/n_octaves": 4, "features/surf/n_octave_layers": 3,
+    "features/surf/extended": False, "features/surf/upright": False,
+    "features/orb/n_features": 500, "features/orb/scale_factor": 1.2, "features/orb/n_levels": 8,
+    "features/orb/edge_threshold": 31, "features/orb/first_level": 0, "features/orb/wta_k": 2, "features/orb/patch_size": 31,
+    "features/orb/fast_threshold": 20,
+    "features/brisk/threshold": 30, "features/brisk/n_octaves": 3, "features/brisk/pattern_scale": 1,
+}
 
 # Mean E and standard deviation s of the three pairs.
 _E_AND_S = {

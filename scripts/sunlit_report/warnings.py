@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from . import names, tables
+from . import circumstances, names, tables
 from .files import summarise
 
 
@@ -31,6 +31,7 @@ def warnings(output):
     for key in output.series:
         if key not in output.summary:
             found.append(f"frames.csv has {names.pair(*key[:2])}, {names.difference(key[2])}, summary.csv has not.")
+    found += circumstances.warnings(output)
     found += _without_features(output)
     outcome = tables.mapping(output.run, "outcome")
     if outcome.get("whole") is False:

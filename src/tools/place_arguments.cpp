@@ -103,6 +103,21 @@ void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   addWeather(line, &options->weather, &options->surfaces);
 }
 
+void tellOfTimezone(const studio::CommandLine& line, const PlaceOptions& place) {
+  constexpr double kFar = 1.5, kHoursPerDay = 24.0, kDegreesPerHour = 15.0;
+  const double late = std::remainder(place.date.timezone - place.site.longitude.deg() / kDegreesPerHour,
+                                     kHoursPerDay);  // the sun's noon, after 12:00
+  if (line.has("--timezone") || std::abs(late) <= kFar) return;
+  const long quarters = std::lround((12.0 + late) * 4.0) % 96;  // no finer: the sun is up to 17 minutes late
+  char text[128];
+  std::snprintf(
+      text, sizeof text,
+      "hours are of UTC%+g; the sun is highest there at about %02ld:%02ld: --timezone gives another "
+      "zone",
+      place.date.timezone, quarters / 4, quarters % 4 * 15);
+  onTerminal().warning(text);
+}
+
 studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, bool stars) {
   studio::SkyOptions options = skyOptionsOf(place);
   options.stars = stars;

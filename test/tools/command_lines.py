@@ -4,6 +4,7 @@ import collections
 import pathlib
 import re
 import shlex
+import shutil
 import struct
 import sys
 import tempfile
@@ -333,6 +334,18 @@ class CommandLines(unittest.TestCase):
                        "--sun", "285,40", "--out", str(pathlib.Path(folder, "nothing.png")))
         self.assertEqual(done.returncode, 0)
         self.assertIn("warning: nothing of the world is in view, which reaches from ", done.stderr)
+
+    def test_hours_of_a_time_zone_that_nobody_gave_are_told_of_where_noon_is_elsewhere(self):
+        told = "warning: hours are of UTC+3; the sun is highest there at about 20:00: --timezone gives another zone\n"
+        with tempfile.TemporaryDirectory() as folder:
+            clock = ["--world", WORLD, "--bounced", "off", "--size", "32x24", "--pose", "-1,0,1,-10"]
+            beside = {"snapshot": ["--out", folder + "/it.png", *clock, "--time", "12:00"],
+                      "timelapse": ["--out", folder + "/day", *clock, "--from", "12", "--frames", "1"]}
+            for program, arguments in beside.items():
+                for place, said in ((["--site", "40.7,-74"], told), (["--site", "40.7,-74", "--timezone", "3"], ""), ([], "")):
+                    done = run(program, *arguments, *place)
+                    self.assertEqual((done.returncode, done.stderr), (0, said))
+                    shutil.rmtree(folder + "/day", ignore_errors=True)
 
     def test_tools_take_the_options_of_the_readme(self):
         examples = re.findall("^rosrun sunlit ((?:%s) .*)$" % "|".join(OPTIONS), (ROOT / "README.md").read_text(),

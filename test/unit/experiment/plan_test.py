@@ -312,6 +312,19 @@ class Plan(unittest.TestCase):
         self.assertNotIn("features", planned()["evaluator"])
         self.assertEqual(planned(differences="[orb, mine]", features=mine, verify="[mine]")["evaluator"]["verify"], ["mine"])
 
+    def test_hours_of_a_time_zone_that_nobody_gave_are_told_of_where_noon_is_elsewhere(self):
+        def notes(given=(), **typed):
+            return plan.notes(defaults(**typed), given)
+        for site, noon in (("[40.7, -74, 10]", "20:00"), ("[-33.9, 151.2, 50]", "05:00"), ("[0, 180, 0]", "03:00"),
+                           ("[0, -179, 0]", "03:00"), ("[48.2, 22.4, 0]", "13:30")):
+            self.assertEqual(notes(site=site), [f"hours are of UTC+3; the sun is highest there at about {noon}: argument timezone "
+                                                "gives another zone"])
+            self.assertEqual(notes(["site", "timezone"], site=site), [])
+        for near in ("[55.792115, 49.122254, 90]", "[48.2, 22.6, 0]", "[48.2, 67.4, 0]"):
+            self.assertEqual(notes(site=near), [])
+        self.assertEqual(notes(features="{mine: {type: sift}}"),
+                         ["argument features sets mine, which no difference uses: add to differences"])
+
     def test_both_renderers_make_the_same_pictures(self):
         tree = planned(night="false", noise="true", noise_seed="7", exposure="auto", highlight_protection="0",
                        final_gather="2", robot="rover", width="320", vignetting="cos4", glare="0.02", mosaic="rggb")

@@ -146,6 +146,18 @@ def captures():
         for n, hour in enumerate(HOURS) for k in range(POSES)]
 
 
+# Of run.yaml where a run is made as the paper's was, in an experiment's own words.
+SETTINGS = {"ratio": "0.5", "inclusive": "false", "features/orb/n_features": "500", "about/world": "race_track",
+            "about/site": "[55.792115, 49.122254, 90.0]", "about/date": "2024-07-01", "about/timezone": "3", "about/exposure": "fixed",
+            "about/conditions": "{}", "about/noise": "false", "about/glare": "0.0", "about/camera": "640 x 480, 60.0 deg, 1.0 m"}
+
+
+def run(**settings):
+    """Lines of run.yaml as far as its settings go; `settings` are others of about, None for one that is not told."""
+    changed = {**SETTINGS, **{key if key in SETTINGS else f"about/{key}": value for key, value in settings.items()}}
+    return ["settings:"] + [f"  {key}: '{value}'" for key, value in changed.items() if value is not None]
+
+
 def write(folder, name, lines):
     path = os.path.join(folder, name)
     os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -171,9 +183,8 @@ def write_all(folder):
     write(folder, "path.csv",
           ["pose,stamp,x,y,z,yaw_deg"] + [f"{k},{k / 10},{k},{k % 7},1.0,0" for k in range(POSES)])
     write(folder, "captures.csv", captures())
-    write(folder, "run.yaml",
-          ["settings:", "  ratio: '0.5'", "  about/world: 'race_track'", "versions:", "  sunlit: '9.8.7'",
-           "counters:", "  streams:", "    'h04': {received: 40, late: 17}"])
+    write(folder, "run.yaml", run() + ["versions:", "  sunlit: '9.8.7'", "counters:", "  streams:",
+                                       "    'h04': {received: 40, late: 17}"])
     write(folder, "rasterizer.yaml", ["rasterizer: 'osmesa: llvmpipe (LLVM 15.0.6, 256 bits)'"])
     write(folder, "ground.yaml", ["ground_albedo: 0.173"])
     write(folder, "inputs.yaml", ["sunlit: '9.8.7'", "world: '00c0ffee'", "path: '0123456789abcdef'"])

@@ -115,6 +115,7 @@ class Findings(InFolder):
 
     def test_a_run_of_few_poses_says_that_it_is_one(self):
         self.write("frames.csv", made.frames())
+        self.write("run.yaml", made.run())
         output = self.read()
         self.assertEqual(findings.verdict_of_all(findings.judge(output), output),
                          "5 of 6 reproduced, 1 cannot be judged, by 40 poses; the paper's findings are those of 991")
@@ -127,6 +128,69 @@ class Findings(InFolder):
         lines = [re.sub(r"(h04,h20,sift),[^,]*", r"\1,nan", line) for line in made.frames()]
         self.write("frames.csv", lines)
         self.assertEqual(self.verdicts()[0], findings.NOT_JUDGED)
+
+
+class Circumstances(InFolder):
+    """The paper's hours are told by their names; whether all else is the paper's by run.yaml."""
+
+    def told(self, run):
+        """The warnings, and the headline."""
+        self.write("frames.csv", made.frames())
+        self.write("summary.csv", [files.SUMMARY] + [
+            f"{a},{b},{difference},40,0,{row.mean},{row.sd},0,1,0,0,0,0,0"
+            for (a, b, difference), row in self.read_frames().items()])
+        self.write("run.yaml", run)
+        output = self.read()
+        return warnings.warnings(output), findings.verdict_of_all(findings.judge(output), output)
+
+    def read_frames(self):
+        return {key: files.summarise(one) for key, one in files.read_frames(os.path.join(self.folder, "frames.csv")).items()}
+
+    def assert_differs(self, settings, in_warning, in_headline):
+        (warning,), headline = self.told(made.run(**settings))
+        self.assertIn(in_warning, warning)
+        self.assertIn("verdicts", warning)
+        self.assertIn(f"reproduced, 1 cannot be judged, by 40 poses; the paper's findings are those of 991; {in_headline}", headline)
+
+    def test_those_of_the_paper_are_not_talked_of(self):
+        for settings in ({}, {"about/world": "forza.glb", "about/timezone": "3.0", "about/noise": "0"},
+                         {"about/conditions": "{h04: {hour: 4}, h12: {hour: 12}, h20: {hour: 20}, fog: {hour: 12, visibility: 150}}"}):
+            told, headline = self.told(made.run(**settings))
+            self.assertEqual(told, [])
+            self.assertTrue(headline.endswith("are those of 991"), headline)
+
+    def test_others_are_named_wherever_findings_are_counted(self):
+        for settings, in_warning, in_headline in (
+                ({"about/date": "2024-12-21", "about/exposure": "auto"},
+                 "Not as in the paper: date is 2024-12-21, the paper's 2024-07-01; exposure is auto, the paper's fixed.",
+                 "not as in the paper: date, exposure"),
+                ({"about/site": "[52.5, 13.4, 34]"}, "site is [52.5, 13.4, 34], the paper's [55.792115, 49.122254, 90]", "not as in the paper: site"),
+                ({"about/timezone": "2"}, "timezone is 2, the paper's 3", "not as in the paper: timezone"),
+                ({"about/noise": "True"}, "noise is True, the paper's false", "not as in the paper: noise"),
+                ({"exposure_time": "auto"}, "exposure_time is auto, the paper's 0", "not as in the paper: exposure_time"),
+                ({"ratio": "0.8", "inclusive": "true"}, "ratio is 0.8, the paper's 0.5; inclusive is true, the paper's false",
+                 "not as in the paper: ratio, inclusive"),
+                ({"features/orb/n_features": "2000"}, "n_features is 2000, the paper's 500", "not as in the paper: features/orb/n_features"),
+                ({"about/camera": "1280 x 720, 60.0 deg, 1.0 m"}, "size of the images is 1280 x 720", "not as in the paper: size"),
+                ({"about/conditions": "{h04: {hour: 5, minute: 30}, h12: {hour: 12, cover: 8}, h20: {hour: 20, noise: true}}"},
+                 "hour of h04 is 5, the paper's 4; minute of h04 is 30, the paper's none; cover of h12 is 8, the paper's none; "
+                 "noise of h20 is true, the paper's false", "not as in the paper: hour of h04")):
+            self.assert_differs(settings, in_warning, in_headline)
+
+    def test_what_is_not_told_is_not_taken_for_the_papers(self):
+        self.assert_differs({f"about/{key}": None for key in ("site", "date", "timezone", "exposure")},
+                            "tells nothing of date, site, timezone, exposure. The", "not known: date, site, timezone, exposure")
+        (warning,), headline = self.told(["poses: 40"])
+        self.assertIn("run.yaml tells nothing of date, site, timezone, exposure, ratio, inclusive", warning)
+        self.assertIn("not known: date", headline)
+
+    def test_streams_of_other_names_are_compared_with_nobody(self):
+        self.write("frames.csv", [line.replace("h04", "a").replace("h12", "b").replace("h20", "c") for line in made.frames()])
+        self.assertFalse([one for one in warnings.warnings(self.read()) if "paper" in one])
+
+    def test_texts_that_are_no_yaml_are_others(self):
+        self.assert_differs({"about/date": "2024-99-99"}, "date is 2024-99-99", "not as in the paper: date")
+        self.assertEqual(self.told(made.run(**{"about/conditions": "{a: ["}))[0], [])
 
 
 class SelfTests(InFolder):
@@ -193,6 +257,7 @@ class Files(InFolder):
     def test_summary_of_other_frames_is_pointed_out(self):
         self.write("frames.csv", made.frames(differences=["sift"], pairs=made.PAIRS[:1]))
         self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])
+        self.write("run.yaml", made.run())
         self.assertEqual(warnings.warnings(self.read()), [])
         self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.85,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])
         self.assertEqual(len(warnings.warnings(self.read())), 1)
