@@ -38,8 +38,8 @@ class PreparedPicture {
   /// Parallel; the same bits for any thread count.
   image::LinearImage illuminate(const Illumination& light) const;
   /// Sun, moon and lamps as far as they are not in the picture, by the part of them that nothing hides from
-  /// the camera: by rays, which begin `nearest_m` from it and pass glass. What only shows, such as surfaces
-  /// that glow, is not among them.
+  /// the camera: by rays, which begin `nearest_m` from it, and what glass and what blends evenly leave of the
+  /// light. What only shows, such as surfaces that glow, is not among them.
   std::vector<image::LightOutside> lightsOutside(const Illumination& light, float nearest_m) const;
 
   const Surfaces& surfaces() const;

@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "light/geometry/ray_list.h"
 #include "light/lamps/lamp_beam.h"
 #include "light/picture/disc/disc_points.h"
 #include "light/picture/sky/pixel_of_direction.h"
+#include "light/shading/glass_sheets.h"
 
 namespace sunlit::light {
 namespace {
@@ -19,7 +21,11 @@ constexpr std::size_t kRows = 4;
 class Outside {
  public:
   Outside(const Surfaces& surfaces, const Visibility& visibility, float nearest_m)
-      : surfaces_(surfaces), visibility_(visibility), nearest_m_(nearest_m), pixels_(surfaces) {}
+      : surfaces_(surfaces),
+        visibility_(visibility),
+        glass_(visibility),
+        nearest_m_(nearest_m),
+        pixels_(surfaces) {}
 
   /// Of sun or moon, as they shine on the camera.
   void add(const sky::DiscLight& disc) {
@@ -27,20 +33,25 @@ class Outside {
     const Eigen::Vector3f middle = disc.towards.vector().cast<float>();
     const DiscPoints points(middle, static_cast<float>(disc.angular_radius.rad()));
     RayList rays;
+    std::vector<Eigen::Vector3f> ways;
     rays.reserve(kRows * DiscPoints::kPoints);
     for (std::size_t row = 0; row < kRows; ++row) {
       const DiscPoints::OfPixel of_row = points.ofPixel(0, row);
       for (std::size_t i = 0; i < DiscPoints::kPoints; ++i) {
         const Eigen::Vector3f towards = of_row[i].normalized();
-        if (!inPicture(towards)) rays.add(0, surfaces_.eye + nearest_m_ * towards, towards);
+        if (inPicture(towards)) continue;
+        rays.add(0, surfaces_.eye + nearest_m_ * towards, towards);
+        ways.push_back(towards);
       }
     }
-    if (rays.size() == 0) return;
-    std::vector<std::uint8_t> blocked(rays.size());
-    visibility_.occluded(rays.rays(), blocked.data());
-    float open = 0.0f;
-    for (const std::uint8_t hidden : blocked) open += hidden ? 0.0f : 1.0f;
-    add(middle, disc.illuminance * (open / static_cast<float>(kRows * DiscPoints::kPoints)));
+    if (ways.empty()) return;
+    std::vector<std::uint8_t> blocked(ways.size());
+    visibility_.occluded(rays.rays(), blocked.data(), Visibility::Blends::kLetPass);
+    Eigen::Array3f open = Eigen::Array3f::Zero();
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      if (blocked[i] == 0) open += through(ways[i], std::numeric_limits<float>::infinity());
+    const Eigen::Array3f share = open / static_cast<float>(kRows * DiscPoints::kPoints);
+    add(middle, LinearRgb(disc.illuminance.value * share));
   }
 
   /// Small enough to be seen whole or not at all.
@@ -48,11 +59,11 @@ class Outside {
     const LampBeam beam(lamp);
     const Eigen::Array3f lx = beam.at(surfaces_.eye);
     const Eigen::Vector3f way = beam.ball() - surfaces_.eye;
-    const float distance_m = way.norm();
-    if (!(lx.maxCoeff() > 0.0f) || !(distance_m > beam.radius_m() + nearest_m_)) return;
+    const float distance_m = way.norm(), open_m = distance_m - beam.radius_m();
+    if (!(lx.maxCoeff() > 0.0f) || !(open_m > nearest_m_)) return;
     const Eigen::Vector3f towards = way / distance_m;
-    if (inPicture(towards) || (beam.castsShadows() && hidden(towards, distance_m - beam.radius_m()))) return;
-    add(towards, LinearRgb(lx));
+    if (inPicture(towards) || (beam.castsShadows() && hidden(towards, open_m))) return;
+    add(towards, LinearRgb(lx * through(towards, open_m)));
   }
 
   std::vector<image::LightOutside> take() { return std::move(lights_); }
@@ -69,17 +80,22 @@ class Outside {
     return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < surfaces_.width - 0.5 &&
            pixel.y() < surfaces_.height - 0.5;
   }
+  /// What veils leave of light that nothing stops.
+  Eigen::Array3f through(const Eigen::Vector3f& towards, float distance_m) const {
+    return glass_.throughVeils({surfaces_.eye, towards, nearest_m_, distance_m});
+  }
   bool hidden(const Eigen::Vector3f& towards, float distance_m) const {
     RayList ray;
     ray.reserve(1);
     ray.add(0, surfaces_.eye + nearest_m_ * towards, (distance_m - nearest_m_) * towards);
     std::uint8_t blocked = 0;
-    visibility_.occludedWithin(ray.rays(), &blocked);
+    visibility_.occludedWithin(ray.rays(), &blocked, Visibility::Blends::kLetPass);
     return blocked != 0;
   }
 
   const Surfaces& surfaces_;
   const Visibility& visibility_;
+  GlassSheets glass_;
   float nearest_m_;
   PixelOfDirection pixels_;
   std::vector<image::LightOutside> lights_;

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "sunlit/light/illumination.h"
 #include "sunlit/sky/uniform_sky.h"
@@ -85,6 +88,21 @@ TEST_F(LightsOutside, AreHiddenByWalls) {
   EXPECT_NEAR(illuminance(sunAt(-90.0, 45.0)), 0.5f * kSun_lx, 0.04f * kSun_lx);
 }
 
+/// Of 100 cd.
+scene::Lamp lampAt(const Eigen::Vector3f& position) {
+  scene::Lamp lamp;
+  lamp.position = position;
+  lamp.intensity = LinearRgb(100.0f, 100.0f, 100.0f);
+  return lamp;
+}
+
+light::Illumination nightWith(const std::vector<scene::Lamp>& lamps) {
+  sky::UniformSky dark;
+  light::Illumination night(sky::uniformDaylight(dark));
+  night.lamps = std::make_shared<const std::vector<scene::Lamp>>(lamps);
+  return night;
+}
+
 TEST_F(LightsOutside, AreLampsToo) {
   light::Illumination night = sunAt(0.0, -20.0);
   ASSERT_TRUE(renderer_.lightsOutside(night).empty());
@@ -99,6 +117,26 @@ TEST_F(LightsOutside, AreLampsToo) {
   ASSERT_EQ(lights.size(), 1u);
   EXPECT_NEAR(lights[0].illuminance.value[1], 1.0, 1e-5);  // 100 cd at 10 m
   EXPECT_LT((lights[0].towards + Eigen::Vector3d::UnitX()).norm(), 1e-6);
+}
+
+TEST_F(LightsOutside, ShineEvenlyThroughWhatBlendsEvenly) {
+  scene::Scene scene = groundAndWall();
+  const int veil = addMaterial(&scene, Eigen::Array3f::Constant(0.5f));
+  scene.materials.back().alpha_mode = scene::AlphaMode::kBlend;
+  scene.materials.back().alpha = 0.5f;
+  addPatch(&scene, veil, {-50.0f, 5.0f, 0.0f}, {100.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 80.0f});
+  render::Renderer renderer(shared(std::move(scene)), renderer_.options());
+  const light::Illumination lamp = nightWith({lampAt({0.0f, 10.0f, 2.0f})});
+  for (double x = 0.0; x < 0.1; x += 0.01) {
+    const Eigen::Vector3d eye = kEye + x * Eigen::Vector3d::UnitX();
+    renderer.look(lookingAt(eye, eye + Eigen::Vector3d::UnitX()));
+    for (const auto& [light, lux] :
+         {std::pair(lamp, 1.0f), std::pair(light::Illumination(sunAt(60.0, 30.0)), kSun_lx)}) {
+      const auto lights = renderer.lightsOutside(light);
+      ASSERT_EQ(lights.size(), 1u) << x;
+      EXPECT_NEAR(lights[0].illuminance.value[1], 0.5f * lux, 1e-4f * lux) << x;
+    }
+  }
 }
 
 TEST_F(LightsOutside, InThePictureAreInItsPixelsWithAllTheirLight) {
