@@ -1,5 +1,6 @@
 #include "light/picture/lights_outside.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -7,9 +8,12 @@
 
 #include "light/geometry/ray_list.h"
 #include "light/lamps/lamp_beam.h"
+#include "light/patches/even_directions.h"
 #include "light/picture/disc/disc_points.h"
 #include "light/picture/sky/pixel_of_direction.h"
 #include "light/shading/glass_sheets.h"
+#include "light/shading/vertex.h"
+#include "sunlit/light/lamps.h"
 
 namespace sunlit::light {
 namespace {
@@ -17,6 +21,40 @@ namespace {
 /// Rows of DiscPoints, each turned otherwise: with 64 points in all a disc that goes behind an edge, or out
 /// of the picture, does so in steps of 2 %.
 constexpr std::size_t kRows = 4;
+
+/// What glows so near to a lamp's ball is its bulb.
+constexpr float kBulb_m = 0.5f;
+constexpr std::size_t kBulbRays = 64;
+
+/// By which pictures show lamps.
+class Bulbs {
+ public:
+  /// Keeps references.
+  Bulbs(const Visibility& visibility, const std::vector<scene::Lamp>& burning)
+      : visibility_(visibility),
+        vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
+        burning_(burning) {}
+
+  /// Whether `beam` has one: whoever looks from where, so that none comes and goes.
+  bool has(const LampBeam& beam) const {
+    static const std::vector<Eigen::Vector3f> all_around = evenDirections(kBulbRays);
+    return std::any_of(all_around.begin(), all_around.end(), [&](const Eigen::Vector3f& towards) {
+      // From the far side of the ball: also of a lamp that lies on its bulb.
+      RayList ray;
+      ray.reserve(1);
+      ray.add(0, beam.ball() - beam.radius_m() * towards, towards);
+      Hit hit;
+      visibility_.closest(ray.rays(), &hit);
+      return hit.triangle != Hit::kMiss && hit.distance <= 2.0f * beam.radius_m() + kBulb_m &&
+             glows(vertices_.material(hit), burning_);
+    });
+  }
+
+ private:
+  const Visibility& visibility_;
+  SceneVertices vertices_;
+  const std::vector<scene::Lamp>& burning_;
+};
 
 class Outside {
  public:
@@ -55,14 +93,19 @@ class Outside {
   }
 
   /// Small enough to be seen whole or not at all.
-  void add(const scene::Lamp& lamp) {
+  void add(const scene::Lamp& lamp, const Bulbs& bulbs) {
     const LampBeam beam(lamp);
     const Eigen::Array3f lx = beam.at(surfaces_.eye);
     const Eigen::Vector3f way = beam.ball() - surfaces_.eye;
     const float distance_m = way.norm(), open_m = distance_m - beam.radius_m();
     if (!(lx.maxCoeff() > 0.0f) || !(open_m > nearest_m_)) return;
     const Eigen::Vector3f towards = way / distance_m;
-    if (inPicture(towards) || (beam.castsShadows() && hidden(towards, open_m))) return;
+    if (hidden(towards, open_m)) {
+      // A lamp may shine through its own bulb, but is not seen through walls, whatever it lights behind them.
+      if (beam.castsShadows() || hidden(towards, open_m - kBulb_m) || !bulbs.has(beam)) return;
+    }
+    // There its bulb has its light.
+    if (inPicture(towards) && bulbs.has(beam)) return;
     add(towards, LinearRgb(lx * through(towards, open_m)));
   }
 
@@ -85,6 +128,7 @@ class Outside {
     return glass_.throughVeils({surfaces_.eye, towards, nearest_m_, distance_m});
   }
   bool hidden(const Eigen::Vector3f& towards, float distance_m) const {
+    if (!(distance_m > nearest_m_)) return false;
     RayList ray;
     ray.reserve(1);
     ray.add(0, surfaces_.eye + nearest_m_ * towards, (distance_m - nearest_m_) * towards);
@@ -110,7 +154,8 @@ std::vector<image::LightOutside> lightsOutside(const Surfaces& surfaces, const V
   outside.add(day.sunSeen());
   outside.add(day.moonSeen());
   if (light.lamps) {
-    for (const scene::Lamp& lamp : *light.lamps) outside.add(lamp);
+    const Bulbs bulbs(visibility, *light.lamps);
+    for (const scene::Lamp& lamp : *light.lamps) outside.add(lamp, bulbs);
   }
   return outside.take();
 }
