@@ -70,6 +70,15 @@ Eigen::Vector2d edgeFromAxis(const PinholeCamera& camera, const Eigen::Vector3d&
   return axis + reach * way;
 }
 
+/// The pixel of a light in the picture, up to its very edge.
+std::optional<Eigen::Vector2d> pixelOf(const Lens& lens, const Eigen::Vector3d& towards) {
+  const std::optional<Eigen::Vector2d> pixel = lens.project(towards);
+  if (!pixel) return std::nullopt;
+  const Eigen::Array2d last = lastOf(lens.camera()), at = *pixel;
+  if (!((at >= -0.5).all() && (at < last + 0.5).all())) return std::nullopt;
+  return Eigen::Vector2d(at.max(0.0).min(last));
+}
+
 /// The pixel nearest to where a light would lie. Other pictures are not on the way from their axis to it, or
 /// only behind it.
 Eigen::Vector2d nearestTo(const Lens& lens, const Eigen::Vector3d& towards) {
@@ -93,14 +102,19 @@ VeilingGlare::VeilingGlare(const Vignetting& vignetting, const GlareOptions& opt
 VeilingGlare::Passed VeilingGlare::passedBy(const Eigen::Vector3d& towards) const {
   const Lens& lens = vignetting_.lens();
   const bool shows_axis = showsAxis(lens.camera());
+  const std::optional<Eigen::Vector2d> inside = pixelOf(lens, towards);
   Passed edge;
-  edge.pixel = shows_axis ? edgeFromAxis(lens.camera(), towards) : nearestTo(lens, towards);
+  edge.pixel = inside       ? *inside
+               : shows_axis ? edgeFromAxis(lens.camera(), towards)
+                            : nearestTo(lens, towards);
   edge.ray = lens.unproject(edge.pixel);
   if (!edge.ray) return edge;
-  edge.edge_rad = fromAxis_rad(*edge.ray);
-  edge.light_rad = shows_axis
-                       ? fromAxis_rad(towards)
-                       : edge.edge_rad + std::atan2(edge.ray->cross(towards).norm(), edge.ray->dot(towards));
+  edge.edge_rad = edge.light_rad = fromAxis_rad(*edge.ray);
+  if (inside) return edge;
+  if (shows_axis)
+    edge.light_rad = fromAxis_rad(towards);
+  else
+    edge.light_rad += std::atan2(edge.ray->cross(towards).norm(), edge.ray->dot(towards));
   return edge;
 }
 

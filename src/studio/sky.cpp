@@ -14,8 +14,9 @@
 namespace sunlit::studio {
 namespace {
 
-/// At a time: conditions of one run may have sites and states of the ground of their own.
-constexpr std::size_t kMostAirs = 8;
+/// At a time: conditions of one run may have sites of their own. More, where there are as many states of the
+/// ground: under a moving sky each has its turn before the first is asked for again.
+constexpr std::size_t kUsualAirs = 8;
 
 /// With the ground that is fixed, if one is.
 SkyOptions checked(SkyOptions options) {
@@ -114,7 +115,7 @@ const sky::Atmosphere& Sky::airOver(double site_elevation_m, std::size_t state) 
     return airs_.back().atmosphere;
   }
   tell(reports_.note, "Air of a height of " + textOf(wanted.observer_height_m) + " m");
-  if (airs_.size() == kMostAirs) airs_.erase(airs_.begin());
+  if (airs_.size() == std::max(kUsualAirs, ground_albedos_.size() + 1)) airs_.erase(airs_.begin());
   airs_.push_back({wanted.observer_height_m, wanted.ground_albedo, sky::Atmosphere(wanted, air_tables_)});
   return airs_.back().atmosphere;
 }

@@ -98,12 +98,15 @@ MapExtent widened(MapExtent extent) {
 image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const {
   constexpr double kLongSidePx = 1600.0;
   // From so many extents away rays are within 1.5° of parallel; of what is wider than a camera may be away,
-  // less so.
-  constexpr double kDistance = 20.0, kFarthest_m = 1.9e6;
+  // less so. The longest focal length that a camera may have allows 625 extents.
+  constexpr double kLeast = 20.0, kMost = 600.0, kFarthest_m = 1.9e6;
   const double east_m = extent.x_max - extent.x_min;
   const double north_m = extent.y_max - extent.y_min;
   const double longest_m = std::max(east_m, north_m);
-  const double distance_m = std::min(kDistance * longest_m, kFarthest_m);
+  const double ground_m = world().ground_m;
+  const Perch perch =
+      perchOver(ground_m, heightsOf(world()),
+                {std::min(kLeast * longest_m, kFarthest_m), std::min(kMost * longest_m, kFarthest_m)});
   const double px_per_m = kLongSidePx / longest_m;
   constexpr int kShortSidePx = static_cast<int>(kLeastMapSide * kLongSidePx);
   const int width = std::max(kShortSidePx, static_cast<int>(std::lround(east_m * px_per_m)));
@@ -116,21 +119,20 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
   options.distortion = image::Distortion();
   options.final_gather = 0;  // the whole world at a glance: its leaves are smaller than pixels
   const int strip = std::min(height, kStripPx);
-  const double focal_px = px_per_m * distance_m;
+  const double focal_px = px_per_m * perch.height_m;
   options.camera = {width, strip, focal_px, focal_px, 0.5 * (width - 1), 0.5 * (strip - 1)};
-  options.near_m = 0.5 * distance_m;
-  options.far_m = 2.0 * distance_m;
+  options.near_m = perch.near_m;
+  options.far_m = perch.far_m;
   const std::unique_ptr<render::Renderer> from_above = camera_->renderer(options);
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   map_from_optical.linear() =
       Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
   const light::Illumination light = illumination(daylight.withoutAir());
-  const double top_m = heightsOf(world()).top;
   image::LinearImage whole(width, height);
   for (int row = 0; row < height; row += strip) {
     const double from_north_m = (row + 0.5 * strip) / px_per_m;
-    map_from_optical.translation() =
-        Eigen::Vector3d(0.5 * (extent.x_min + extent.x_max), extent.y_max - from_north_m, top_m + distance_m);
+    map_from_optical.translation() = Eigen::Vector3d(0.5 * (extent.x_min + extent.x_max),
+                                                     extent.y_max - from_north_m, ground_m + perch.height_m);
     from_above->look(map_from_optical);
     const image::LinearImage part = from_above->light(light);
     const int rows = std::min(strip, height - row);

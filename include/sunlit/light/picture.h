@@ -37,9 +37,10 @@ class PreparedPicture {
   /// moon and stars where no surface is seen. `light` is of the same world, or just a sky::Daylight.
   /// Parallel; the same bits for any thread count.
   image::LinearImage illuminate(const Illumination& light) const;
-  /// Sun, moon and lamps as far as they are not in the picture, by the part of them that nothing hides from
-  /// the camera: by rays, which begin `nearest_m` from it and pass glass. What only shows, such as surfaces
-  /// that glow, is not among them.
+  /// Sun, moon and lamps as far as they are not in the picture, nor a bulb that glows where a lamp is, by the
+  /// part of them that nothing hides from the camera: by rays, which begin `nearest_m` from it, and what
+  /// glass and what blends evenly leave of the light. What only shows, such as surfaces that glow, is not
+  /// among them.
   std::vector<image::LightOutside> lightsOutside(const Illumination& light, float nearest_m) const;
 
   const Surfaces& surfaces() const;

@@ -93,8 +93,9 @@ class Studio {
   /// Where the camera of StudioOptions::top_down stands, from where it sees that ground; unset without it.
   const std::optional<Eigen::Isometry3d>& mapFromTopDown() const { return map_from_top_down_; }
 
-  /// A picture from above of what is widened(), north up, close to orthographic up to 100 km, and from within
-  /// 1900 km whatever the extent; without the air before it. Leaves alone what look() looked at.
+  /// A picture from above of what is widened(), north up, of that extent at the level of the ground; close to
+  /// orthographic up to 100 km, and from within 1900 km whatever the extent; without the air before it.
+  /// Leaves alone what look() looked at.
   image::Rgb8Image mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const;
 
   /// `map_from_camera`: of its link, x forward, z up. `map_from_links`: of the robot; empty: it is not there.

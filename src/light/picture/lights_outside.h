@@ -1,4 +1,4 @@
-/// What shines on a camera from beside its picture.
+/// What shines on a camera, and is not in its picture.
 #pragma once
 
 #include <vector>

@@ -254,6 +254,18 @@ TEST(VeilingGlare, LiesAboutTheNearestEdgeAlsoWhereTheAxisIsNotInThePicture) {
   }
 }
 
+TEST(VeilingGlare, OfALightInThePictureThatNoPixelShowsLiesAboutIt) {
+  for (const Lens& lens : {usual(), besideItsAxis()}) {
+    const VeilingGlare veil = before(lens, glare(0.05, 0.5));
+    for (const auto& [x, y] : {std::pair(310, 230), std::pair(120, 390)}) {
+      LinearImage shown = sunAt(lens, x, y), not_shown = even(lens, 0.0F);
+      veil.apply({}, &shown);
+      veil.apply({lightAt(lens, x, y)}, &not_shown);
+      expectLike(shown, not_shown);
+    }
+  }
+}
+
 TEST(VeilingGlare, FadesFromThatEdgeOnWithoutAStepOnBothSidesOfTheAxis) {
   const Lens lens = besideItsAxis();
   const VeilingGlare veil = before(lens, glare(0.05, 0.5));

@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
+#include "sunlit/image/veiling_glare.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/sky/uniform_sky.h"
 #include "test_scenes.h"
@@ -85,20 +89,111 @@ TEST_F(LightsOutside, AreHiddenByWalls) {
   EXPECT_NEAR(illuminance(sunAt(-90.0, 45.0)), 0.5f * kSun_lx, 0.04f * kSun_lx);
 }
 
+/// Of 100 cd.
+scene::Lamp lampAt(const Eigen::Vector3f& position) {
+  scene::Lamp lamp;
+  lamp.position = position;
+  lamp.intensity = LinearRgb(100.0f, 100.0f, 100.0f);
+  return lamp;
+}
+
+light::Illumination nightWith(const std::vector<scene::Lamp>& lamps) {
+  sky::UniformSky dark;
+  light::Illumination night(sky::uniformDaylight(dark));
+  night.lamps = std::make_shared<const std::vector<scene::Lamp>>(lamps);
+  return night;
+}
+
 TEST_F(LightsOutside, AreLampsToo) {
-  light::Illumination night = sunAt(0.0, -20.0);
-  ASSERT_TRUE(renderer_.lightsOutside(night).empty());
-  scene::Lamp beside, hidden, seen;
-  beside.position = Eigen::Vector3f(0.0f, 10.0f, 2.0f);
-  hidden.position = Eigen::Vector3f(0.0f, -10.0f, 2.0f);
-  seen.position = Eigen::Vector3f(10.0f, 0.0f, 2.0f);
-  for (scene::Lamp* lamp : {&beside, &hidden, &seen}) lamp->intensity = LinearRgb(100.0f, 100.0f, 100.0f);
-  night.lamps =
-      std::make_shared<const std::vector<scene::Lamp>>(std::vector<scene::Lamp>{beside, hidden, seen});
-  const auto lights = renderer_.lightsOutside(night);
+  // To the left, behind the wall.
+  const auto lights =
+      renderer_.lightsOutside(nightWith({lampAt({0.0f, 10.0f, 2.0f}), lampAt({0.0f, -10.0f, 2.0f})}));
   ASSERT_EQ(lights.size(), 1u);
   EXPECT_NEAR(lights[0].illuminance.value[1], 1.0, 1e-5);  // 100 cd at 10 m
   EXPECT_LT((lights[0].towards + Eigen::Vector3d::UnitX()).norm(), 1e-6);
+}
+
+TEST_F(LightsOutside, AreLampsInThePictureThatItDoesNotShow) {
+  // The second one behind the wall, the others on both sides of the picture's left edge.
+  const auto at = [](double left_deg) {
+    return lampAt({static_cast<float>(10.0 * std::cos(left_deg * kRadPerDeg)),
+                   static_cast<float>(10.0 * std::sin(left_deg * kRadPerDeg)), 2.0f});
+  };
+  EXPECT_NEAR(illuminance(nightWith({at(0.0)})), 1.0, 1e-5);
+  EXPECT_EQ(illuminance(nightWith({lampAt({20.0f, -9.0f, 2.0f})})), 0.0f);
+  const render::RenderOptions& options = renderer_.options();
+  image::GlareOptions glare;
+  glare.share = 0.03;
+  const image::VeilingGlare veil(image::Vignetting(image::Lens(options.camera, options.distortion), {}),
+                                 glare);
+  const auto meanOf = [&](double left_deg) {
+    float mean = 0.0f;
+    for (const image::LightOutside& light : renderer_.lightsOutside(nightWith({at(left_deg)})))
+      mean += veil.meanOf(light).value[1];
+    return mean;
+  };
+  const float before = meanOf(30.02);
+  EXPECT_GT(before, 0.0f);
+  EXPECT_NEAR(meanOf(29.98), before, 0.01f * before);
+}
+
+TEST_F(LightsOutside, AreNotSeenThroughWallsAlsoWhereTheyLightWhatIsBehindThem) {
+  scene::Lamp lamp = lampAt({0.0f, -10.0f, 2.0f});
+  lamp.casts_shadows = false;
+  EXPECT_EQ(illuminance(nightWith({lamp})), 0.0f);
+  lamp.position.y() = 10.0f;
+  EXPECT_NEAR(illuminance(nightWith({lamp})), 1.0, 1e-5);
+}
+
+/// One in the picture and one to the left of it, each in a bulb that glows while lamps of its group burn.
+scene::Scene withBulbs() {
+  scene::Scene scene = groundAndWall();
+  const int glass = addMaterial(&scene, Eigen::Array3f::Constant(0.5f));
+  scene.materials.back().emission = LinearRgb(1e4f, 1e4f, 1e4f);
+  scene.materials.back().lamp_group = "bulbs";
+  addBlock(&scene, glass, {9.9f, -0.1f, 1.9f}, {0.2f, 0.2f, 0.2f});
+  addBlock(&scene, glass, {-0.1f, 9.9f, 1.9f}, {0.2f, 0.2f, 0.2f});
+  return scene;
+}
+
+TEST_F(LightsOutside, AreNotLampsWhoseBulbsAreInThePicture) {
+  render::Renderer renderer(shared(withBulbs()), renderer_.options());
+  renderer.look(lookingAt(kEye, kEye + Eigen::Vector3d::UnitX()));
+  const auto luxOf = [&](scene::Lamp lamp, const char* group) {
+    lamp.group = group;
+    lamp.casts_shadows = false;
+    float sum = 0.0f;
+    for (const image::LightOutside& light : renderer.lightsOutside(nightWith({lamp})))
+      sum += light.illuminance.value[1];
+    return sum;
+  };
+  const scene::Lamp seen = lampAt({10.0f, 0.0f, 2.0f}), beside = lampAt({0.0f, 10.0f, 2.0f}),
+                    below = lampAt({10.0f, 0.0f, 1.7f});
+  EXPECT_EQ(luxOf(seen, "bulbs"), 0.0f);
+  EXPECT_NEAR(luxOf(beside, "bulbs"), 1.0, 1e-5);
+  EXPECT_EQ(luxOf(below, "bulbs"), 0.0f);  // the way to it passes below its bulb
+  EXPECT_NEAR(luxOf(below, "others"), 1.0, 2e-3);
+  EXPECT_EQ(luxOf(seen, "others"), 0.0f);  // in a dark box
+}
+
+TEST_F(LightsOutside, ShineEvenlyThroughWhatBlendsEvenly) {
+  scene::Scene scene = groundAndWall();
+  const int veil = addMaterial(&scene, Eigen::Array3f::Constant(0.5f));
+  scene.materials.back().alpha_mode = scene::AlphaMode::kBlend;
+  scene.materials.back().alpha = 0.5f;
+  addPatch(&scene, veil, {-50.0f, 5.0f, 0.0f}, {100.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 80.0f});
+  render::Renderer renderer(shared(std::move(scene)), renderer_.options());
+  const light::Illumination lamp = nightWith({lampAt({0.0f, 10.0f, 2.0f})});
+  for (double x = 0.0; x < 0.1; x += 0.01) {
+    const Eigen::Vector3d eye = kEye + x * Eigen::Vector3d::UnitX();
+    renderer.look(lookingAt(eye, eye + Eigen::Vector3d::UnitX()));
+    for (const auto& [light, lux] :
+         {std::pair(lamp, 1.0f), std::pair(light::Illumination(sunAt(60.0, 30.0)), kSun_lx)}) {
+      const auto lights = renderer.lightsOutside(light);
+      ASSERT_EQ(lights.size(), 1u) << x;
+      EXPECT_NEAR(lights[0].illuminance.value[1], 0.5f * lux, 1e-4f * lux) << x;
+    }
+  }
 }
 
 TEST_F(LightsOutside, InThePictureAreInItsPixelsWithAllTheirLight) {

@@ -134,6 +134,24 @@ TEST(Sky, TakesTheLandBeyondFromTheWorldUnlessItIsFixed) {
   EXPECT_EQ(over_nothing.groundAlbedo(), sky::AtmosphereOptions().ground_albedo);
 }
 
+TEST(Sky, KeepsAnAirForEachStateOfTheGround) {
+  SkyOptions options = kept();
+  options.fixed_ground_albedo = options.air.ground_albedo;  // heights are sooner made than albedos
+  int made = 0;
+  Reports reports;
+  reports.note = [&](const std::string& line) { made += line.find("Air of a height") == 0 ? 1 : 0; };
+  Sky sky(options, reports);
+  constexpr int kStates = 12;
+  sky.over(std::vector<light::World>(kStates, snowfield()));
+  for (const bool again : {false, true}) {
+    for (int state = 0; state < kStates; ++state) {
+      EXPECT_EQ(sky.isPrepared(100.0 * state, static_cast<std::size_t>(state)), again) << state;
+      sky.prepare(100.0 * state, static_cast<std::size_t>(state));
+    }
+  }
+  EXPECT_EQ(made, kStates);
+}
+
 TEST(Sky, ThatFindsItsTablesIsTheSame) {
   const TemporaryFolder folder;
   SkyOptions options;

@@ -360,6 +360,37 @@ TEST(Studio, SeesAsMuchGroundFromAboveAsAskedForWhateverItsHeightAndWithoutHaze)
   EXPECT_NEAR(*high.at(5, 5), *low.at(5, 5), 1);
 }
 
+/// Columns of a map's row that are white, as of that square: the first, and how many from it to the last.
+std::pair<int, int> whiteColumns(const image::Rgb8Image& map, int row) {
+  int first = -1, count = 0;
+  for (int x = 0; x < map.width; ++x) {
+    if (*map.at(x, row) < 128) continue;
+    if (first < 0) first = x;
+    count = x + 1 - first;
+  }
+  return {first, count};
+}
+
+TEST(Studio, MapsShowTheirExtentAtTheGroundWhateverTheWorldsHeight) {
+  const TemporaryFolder folder;
+  // 100 km: more than a camera's focal length allows for 80 m.
+  for (const std::string top : {"340", "3300", "100000"}) {
+    StudioOptions options = boxes();
+    options.world.name = highLand(folder, top);
+    const Studio studio(options);
+    // 20 px/m, the northern edge of the square 10 m and 200 px below that of the map.
+    const image::Rgb8Image map =
+        studio.mapFromAbove({-40.0, 40.0, -17.5, 22.5}, sky::usualAir().daylight(kHighSun));
+    ASSERT_EQ(map.height, 800);
+    for (const int row : {202, 255, 256, 450, 697}) {
+      const auto [first, count] = whiteColumns(map, row);
+      EXPECT_NEAR(first, 550, 1) << "a top of " << top << ", row " << row;
+      EXPECT_NEAR(count, 500, 1) << "a top of " << top << ", row " << row;
+    }
+    for (const int row : {0, 197, 702, 799}) EXPECT_EQ(whiteColumns(map, row).second, 0) << row;
+  }
+}
+
 TEST(Studio, MapsPathsOfAnyLength) {
   // A camera may look 1e7 m far and see nothing within 1e6: a path of 200 km is not seen from 20 times that.
   Studio studio(boxes());
