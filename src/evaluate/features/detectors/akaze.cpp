@@ -1,16 +1,8 @@
 #include "evaluate/features/detectors.h"
-#include "evaluate/features/pixel_centres.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::evaluate {
 namespace {
-
-/// Each octave is half of the one before, rounded down to whole pixels, though taken to be just half.
-PyramidLevel levelOfAkaze(int octave, const cv::Size& picture) {
-  const int scale = 1 << octave;
-  return {cv::Size(picture.width / scale, picture.height / scale), static_cast<double>(scale),
-          0.5 * (scale - 1)};
-}
 
 enum class Descriptor { kKazeUpright, kKaze, kMldbUpright, kMldb };
 
@@ -46,10 +38,9 @@ class Akaze : public Detector {
     static constexpr cv::AKAZE::DescriptorType kTypes[] = {
         cv::AKAZE::DESCRIPTOR_KAZE_UPRIGHT, cv::AKAZE::DESCRIPTOR_KAZE, cv::AKAZE::DESCRIPTOR_MLDB_UPRIGHT,
         cv::AKAZE::DESCRIPTOR_MLDB};
-    return atPixelCentres(
-        cv::AKAZE::create(kTypes[static_cast<int>(descriptor_type_)], descriptor_size_, descriptor_channels_,
-                          static_cast<float>(threshold_), n_octaves_, n_octave_layers_, diffusivity_),
-        levelOfAkaze);
+    return cv::AKAZE::create(kTypes[static_cast<int>(descriptor_type_)], descriptor_size_,
+                             descriptor_channels_, static_cast<float>(threshold_), n_octaves_,
+                             n_octave_layers_, diffusivity_);
   }
 
  private:

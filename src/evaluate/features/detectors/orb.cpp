@@ -1,7 +1,4 @@
-#include <cmath>
-
 #include "evaluate/features/detectors.h"
-#include "evaluate/features/pixel_centres.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -24,18 +21,8 @@ class Orb : public Detector {
   /// Of three or four points, an element has two bits.
   int norm() const override { return wta_k_ == 2 ? cv::NORM_HAMMING : cv::NORM_HAMMING2; }
   cv::Ptr<cv::Feature2D> make() const override {
-    // Pixel x of a level is taken for pixel scale · x, and the level has as many as scale leaves, rounded.
-    const auto level_of = [factor = static_cast<float>(scale_factor_), first = first_level_](
-                              int octave, const cv::Size& picture) -> PyramidLevel {
-      const auto scale = static_cast<float>(std::pow(static_cast<double>(factor), octave - first));
-      const float shrinks = 1.0F / scale;
-      const auto sized = [&](int whole) { return cvRound(static_cast<float>(whole) * shrinks); };
-      return {cv::Size(sized(picture.width), sized(picture.height)), static_cast<double>(scale), 0.0};
-    };
-    return atPixelCentres(
-        cv::ORB::create(n_features_, static_cast<float>(scale_factor_), n_levels_, edge_threshold_,
-                        first_level_, wta_k_, cv::ORB::HARRIS_SCORE, patch_size_, fast_threshold_),
-        level_of);
+    return cv::ORB::create(n_features_, static_cast<float>(scale_factor_), n_levels_, edge_threshold_,
+                           first_level_, wta_k_, cv::ORB::HARRIS_SCORE, patch_size_, fast_threshold_);
   }
 
  private:

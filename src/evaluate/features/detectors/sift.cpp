@@ -1,17 +1,10 @@
 #include <utility>
 
 #include "evaluate/features/detectors.h"
-#include "evaluate/features/pixel_centres.h"
 #include "evaluate/features/root_sift.h"
 
 namespace sunlit::evaluate {
 namespace {
-
-/// Without enable_precise_upscale, an option since OpenCV 4.8 that is off, all octaves stand on the picture
-/// in twice its size, of which pixel 2x is taken for pixel x.
-PyramidLevel levelOfSift(int /*octave*/, const cv::Size& picture) {
-  return {{2.0 * picture.width, 2.0 * picture.height}, 0.5, 0.0};
-}
 
 /// cv::SIFT.
 class Sift : public Detector {
@@ -29,9 +22,8 @@ class Sift : public Detector {
   bool histograms() const override { return true; }
   /// Its elements are whole numbers up to 255; as bytes they are the same numbers in a quarter of the memory.
   cv::Ptr<cv::Feature2D> make() const override {
-    return atPixelCentres(
-        cv::SIFT::create(n_features_, n_octave_layers_, contrast_threshold_, edge_threshold_, sigma_, CV_8U),
-        levelOfSift);
+    return cv::SIFT::create(n_features_, n_octave_layers_, contrast_threshold_, edge_threshold_, sigma_,
+                            CV_8U);
   }
 
  private:

@@ -120,11 +120,11 @@ TEST(Comparisons, OfTwoDrivesAreOfQueriesAtOnePlace) {
   EXPECT_EQ(row.test.n, 17u);
   EXPECT_EQ(row.unpaired, 3u + 10u);
   EXPECT_EQ(row.test.mean_difference, -1.0);
-  EXPECT_EQ(
-      found.paired_by_place,
-      std::vector<std::string>{"comparisons.csv: dusk in h12 and dawn in h12 have no common numbers of "
-                               "poses, and were paired by place: 17 pairs, 13 queries without one, nearest to each other "
-                               "within 5 m"});
+  EXPECT_EQ(found.paired_by_place,
+            std::vector<std::string>{
+                "comparisons.csv: dusk in h12 and dawn in h12 have no common numbers of "
+                "poses, and were paired by place: 17 pairs, 13 queries without one, nearest to each other "
+                "within 5 m"});
   // Who drives back looks the other way; who drives elsewhere is further away.
   for (LocalisationRow& one : rows) {
     if (one.query == "dawn") one.truth.linear() = Eigen::Vector3d(-1, 1, -1).asDiagonal();
