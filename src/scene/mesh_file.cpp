@@ -133,17 +133,18 @@ void setUp(Assimp::Importer& importer, UpAxis up_axis) {
 const aiScene* prepared(Assimp::Importer& importer, bool gltf) {
   const aiScene* const scene = importer.GetScene();
   if (scene == nullptr) return nullptr;
-  bool is_colored = false;
+  bool has_more = false;  // than one set of texture coordinates a vertex
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     aiMesh& mesh = *scene->mMeshes[i];
-    is_colored = is_colored || mesh.HasVertexColors(0);
+    has_more = has_more || mesh.HasVertexColors(0) || mesh.GetNumUVChannels() > 1;
     if (hasVoidNormals(mesh)) delete[] std::exchange(mesh.mNormals, nullptr);
   }
   unsigned steps = kSteps;
   if (!gltf) {
     steps |= aiProcess_GenSmoothNormals;
-    // COLLADA and OBJ index each array apart. Assimp 5.2 joins vertices of different colours, too.
-    if (!is_colored) steps |= aiProcess_JoinIdenticalVertices;
+    // COLLADA and OBJ index each array apart. Assimp 5.2 joins vertices of different colours or further sets
+    // of texture coordinates, too.
+    if (!has_more) steps |= aiProcess_JoinIdenticalVertices;
   }
   return importer.ApplyPostProcessing(steps);
 }
