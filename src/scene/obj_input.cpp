@@ -5,7 +5,9 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -122,6 +124,56 @@ std::string withColors(const std::string& text) {
   return colored;
 }
 
+/// How many words a line of a vertex has behind its first one; 0 of other lines, and of one that goes on in
+/// the next.
+std::size_t wordsOfVertex(const std::string& line) {
+  if (line.size() < 2 || line[0] != 'v' || (line[1] != ' ' && line[1] != '\t')) return 0;
+  const std::size_t end = std::min(line.find('#'), line.size());
+  std::size_t words = 0;
+  for (std::size_t i = 1; i < end; ++i) {
+    if (line[i] == '\\') return 0;
+    const bool is_blank = line[i] == ' ' || line[i] == '\t';
+    const bool was_blank = line[i - 1] == ' ' || line[i - 1] == '\t';
+    words += !is_blank && was_blank ? 1 : 0;
+  }
+  return words;
+}
+
+/// A vertex of three numbers.
+std::string inWhite(const std::string& line) {
+  return line.substr(0, line.find('#')) + " 1 1 1";
+}
+
+/// The three numbers of a vertex that has a fourth, by which they are divided; as it is where that is 0.
+std::string divided(const std::string& line) {
+  std::istringstream words(line.substr(1));
+  std::array<double, 4> numbers{};
+  for (double& number : numbers) words >> number;
+  if (numbers[3] == 0.0) return line;
+  std::ostringstream three;
+  three << std::setprecision(std::numeric_limits<float>::max_digits10) << 'v';
+  for (std::size_t i = 0; i < 3; ++i) three << ' ' << numbers[i] / numbers[3];
+  return three.str();
+}
+
+/// Where some vertices have a colour, all get one: Assimp 5.2 keeps a list of colours without gaps.
+std::string withColorsOfAll(const std::string& text) {
+  bool any_colored = false, any_bare = false;
+  forEachLine(text, [&](const std::string& line, std::size_t) {
+    const std::size_t words = wordsOfVertex(line);
+    any_colored = any_colored || words == 6;
+    any_bare = any_bare || words == 3 || words == 4;
+  });
+  if (!any_colored || !any_bare) return text;
+  std::string colored;
+  forEachLine(text, [&](const std::string& line, std::size_t) {
+    const std::size_t words = wordsOfVertex(line);
+    const std::string three = words == 4 ? divided(line) : line;
+    colored += (wordsOfVertex(three) == 3 ? inWhite(three) : line) + '\n';
+  });
+  return colored;
+}
+
 std::string withoutMark(const std::string& text) {
   return text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? text.substr(3) : text;
 }
@@ -131,7 +183,7 @@ std::string withoutMark(const std::string& text) {
 Assimp::IOStream* ObjInput::Open(const char* path, const char* mode) {
   if (!Exists(path)) return DefaultIOSystem::Open(path, mode);
   const std::string text = withoutMark(contentOf(path));
-  if (extensionOf(path) == ".obj") return streamOf(text);
+  if (extensionOf(path) == ".obj") return streamOf(withColorsOfAll(text));
   requireMaterialFirst(path, text);
   return streamOf(withColors(withoutPlacements(text)));
 }

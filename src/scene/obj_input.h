@@ -10,9 +10,9 @@ namespace sunlit::scene {
 
 /// Opens the files that an OBJ file consists of: without a byte order mark, and textures without where they
 /// are shifted and how often they repeat (-o, -s, -t of MTL), of which Assimp 5.2 may take their names for a
-/// part; with a white Kd beside pictures of colour that have none. No library of materials whose first words
-/// are of none: Assimp writes them to a material that it does not have. Throws std::runtime_error naming its
-/// line, which Assimp hands on.
+/// part; with a white Kd beside pictures of colour that have none, and white vertices beside coloured ones.
+/// No library of materials whose first words are of none: Assimp writes them to a material that it does not
+/// have. Throws std::runtime_error naming its line, which Assimp hands on.
 class ObjInput : public Assimp::DefaultIOSystem {
  public:
   Assimp::IOStream* Open(const char* path, const char* mode = "rb") override;

@@ -195,6 +195,24 @@ TEST_F(ObjLooks, PicturesThatAreNoNormalsAreNamed) {
   }
 }
 
+// Objects of several makers in one file.
+TEST_F(ObjLooks, VerticesWithoutAColourAreWhiteBesideOthers) {
+  const Scene scene = load(write("w.obj",
+                                 "o bare\nv 0 0 0\nv 1 0 0 # corner\nv 0 2 0 2\nf 1 2 3\n"
+                                 "o red\nv 0 0 1 1 0 0\nv 1 0 1 1 0 0\nv 0 1 1 1 0 0\nf 4 5 6\n"
+                                 "o last\nv 0 0 2\nv 1 0 2\nv 0 1 2\nf -3 -2 -1\n"),
+                           {});
+  ASSERT_EQ(scene.meshes.size(), 3u);
+  for (const Mesh& mesh : scene.meshes) {
+    const bool red = boundsOf(mesh).max().z() == 1.0f;
+    ASSERT_EQ(mesh.colors.size(), 3u);
+    for (const Eigen::Array3f& color : mesh.colors)
+      EXPECT_TRUE((color == Eigen::Array3f(1.0f, red ? 0.0f : 1.0f, red ? 0.0f : 1.0f)).all())
+          << color.transpose();
+    EXPECT_EQ(boundsOf(mesh).max().head<2>(), Eigen::Vector2f(1, 1));
+  }
+}
+
 // As SketchUp writes walls; drawn from both sides, either would flicker through the other.
 TEST_F(ObjLooks, FacesBackToBackAreOneSided) {
   write("m.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
