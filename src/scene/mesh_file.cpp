@@ -291,12 +291,11 @@ void warnOfLosses(const Collector& collector, const std::string& file, SceneBuil
 }
 
 void warnOfObj(const std::string& file, SceneBuilder& builder) {
-  const ObjLosses losses = lossesOfObj(file);
-  for (const std::string& material : losses.materials)
+  const ObjLibraries libraries = librariesOfObj(file);
+  for (const std::string& material : libraries.missing)
     builder.warn("materials are not there, and neutral ones stand for them", material);
-  for (const std::string& material : losses.mirroring)
-    builder.warn(kNotRendered, material + ": a picture of what it mirrors: it mirrors what there is");
-  for (const std::string& library : losses.placed)
+  for (const std::string& material : libraries.not_rendered) builder.warn(kNotRendered, material);
+  for (const std::string& library : libraries.placed)
     builder.warn("libraries of OBJ shift textures or repeat them by -o, -s or -t, which is not read",
                  library);
 }

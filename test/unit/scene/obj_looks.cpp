@@ -213,6 +213,29 @@ TEST_F(ObjLooks, VerticesWithoutAColourAreWhiteBesideOthers) {
   }
 }
 
+// Assimp would give up the file for each of these words.
+TEST_F(ObjLooks, WordsThatAssimpDoesNotKnowStopNothing) {
+  const auto lossesOf = [&](const std::string& lines) {
+    const Scene scene = lookOf(lines);
+    EXPECT_EQ(scene.triangleCount(), 1u) << lines;
+    return scene.warnings;
+  };
+  const std::vector<std::pair<std::string, std::string>> lost = {
+      {"aniso 0.5\n", "aniso, a highlight"},        {"decal paint.png\n", "decal, a picture"},
+      {"d -halo 0.8\n", "d -halo, an opacity"},     {"Kd spectral grass.rfl\n", "Kd by spectral"},
+      {"Ks xyz 0.5 0.5 0.5\n", "Ks by xyz"},        {"Tf xyz 0.5\n", "Tf by xyz"},
+      {"Tf spectral glass.rfl\n", "Tf by spectral"}};
+  for (const auto& [lines, name] : lost) {
+    const std::vector<std::string> warnings = lossesOf(lines);
+    ASSERT_EQ(warnings.size(), 1u) << lines;
+    EXPECT_NE(warnings[0].find("m of " + pathOf("m.mtl") + ": " + name), std::string::npos) << warnings[0];
+  }
+  EXPECT_EQ(materialOf(lookOf("d -halo 0.8\n")).alpha, 0.8f);
+  for (const std::string nothing :
+       {"aniso 0\nanisor 0.25\n", "Ka spectral grass.rfl\nKa xyz 1\n", "d -halo 1\n"})
+    EXPECT_TRUE(lossesOf(nothing).empty()) << nothing;
+}
+
 // As SketchUp writes walls; drawn from both sides, either would flicker through the other.
 TEST_F(ObjLooks, FacesBackToBackAreOneSided) {
   write("m.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
