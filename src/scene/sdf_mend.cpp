@@ -76,6 +76,13 @@ std::string described(const XMLElement& element, const std::string& file) {
          placeOf(file, element);
 }
 
+/// What libsdformat is strict about in links of older versions, and nobody sees.
+bool isUnseenOfOld(const XMLElement& element, const XMLElement& parent) {
+  const std::string kind = element.Value();
+  return std::string(parent.Value()) == "link" &&
+         (kind == "collision" || kind == "inertial" || kind == "sensor");
+}
+
 /// How many numbers there are in `text`; 0 where there is anything else.
 std::size_t numbersIn(const std::string& text) {
   std::istringstream words(text);
@@ -158,13 +165,10 @@ class Mender {
     return std::abs(red - green) < 1e-3f && std::abs(green - blue) < 1e-3f;
   }
 
-  /// Of older versions, whose elements stand elsewhere: what libsdformat is strict about in links, and nobody
-  /// sees.
+  /// Of older versions, whose elements stand elsewhere.
   static void dropUnseen(XMLElement& parent) {
-    const bool link = std::string(parent.Value()) == "link";
     for (XMLElement* child : childrenOf(parent)) {
-      const std::string kind = child->Value();
-      if (link && (kind == "collision" || kind == "inertial" || kind == "sensor")) {
+      if (isUnseenOfOld(*child, parent)) {
         parent.DeleteChild(child);
       } else {
         dropUnseen(*child);
@@ -338,6 +342,14 @@ class Mender {
 };
 
 }  // namespace
+
+bool isTakenOut(const XMLElement& element, const XMLElement& sdf) {
+  const XMLElement& parent = *element.Parent()->ToElement();
+  const int version = minorVersion(sdf);
+  if (version >= 0 && version < kOldestPruned) return isUnseenOfOld(element, parent);
+  const auto known = kChildren.find(parent.Value());
+  return known != kChildren.end() && known->second.kept.count(element.Value()) == 0;
+}
 
 void mendSdf(XMLElement& sdf, const std::string& file, SceneBuilder& builder) {
   int version = minorVersion(sdf);
