@@ -19,6 +19,7 @@
 #include "scene/assimp_nodes.h"
 #include "scene/back_to_back.h"
 #include "scene/collada_check.h"
+#include "scene/collada_lamps.h"
 #include "scene/collada_sets.h"
 #include "scene/collada_text.h"
 #include "scene/color.h"
@@ -229,39 +230,6 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
   return looks;
 }
 
-/// COLLADA gives colours without a unit and whole cones.
-Lamp lampOf(const aiLight& light, const Eigen::Affine3d& up_from_node) {
-  Lamp lamp;
-  lamp.name = lamp.group = light.mName.C_Str();
-  lamp.relative = true;
-  const aiColor3D& color = light.mColorDiffuse;
-  lamp.intensity = linearFromBright({color.r, color.g, color.b});
-  const aiVector3D &at = light.mPosition, &to = light.mDirection;
-  lamp.position = (up_from_node * Eigen::Vector3d(at.x, at.y, at.z)).cast<float>();
-  lamp.constant = light.mAttenuationConstant;
-  lamp.linear = light.mAttenuationLinear;
-  lamp.quadratic = light.mAttenuationQuadratic;
-  if (light.mType != aiLightSource_SPOT) return lamp;
-  lamp.direction = (up_from_node.linear() * Eigen::Vector3d(to.x, to.y, to.z)).normalized().cast<float>();
-  lamp.outer_rad = std::clamp(0.5f * light.mAngleOuterCone, 0.0f, Lamp::kAllAround_rad);
-  lamp.inner_rad = std::clamp(0.5f * light.mAngleInnerCone, 0.0f, lamp.outer_rad);
-  return lamp;
-}
-
-/// Of COLLADA.
-void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBuilder& builder) {
-  for (unsigned i = 0; i < scene.mNumLights; ++i) {
-    const aiLight& light = *scene.mLights[i];
-    if (light.mType != aiLightSource_POINT && light.mType != aiLightSource_SPOT) {
-      builder.warn(kOtherLights, light.mName.C_Str());
-      continue;
-    }
-    const aiNode* const node = scene.mRootNode->FindNode(light.mName);
-    // Without a node it stands nowhere.
-    if (node != nullptr) builder.addLamp(lampOf(light, up_from_file * fileFromNode(*node)));
-  }
-}
-
 /// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended.
 void readCollada(const std::string& file, Assimp::Importer& importer, SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
@@ -365,7 +333,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   collector.collect(*scene->mRootNode, up_from_file);
   warnOfLosses(collector, file, builder);
   if (up_axis == UpAxis::kAsDeclared && gltf) gltf_materials->addLights(up_from_file);
-  if (up_axis == UpAxis::kAsDeclared && !gltf) addLamps(*scene, up_from_file, builder);
+  if (up_axis == UpAxis::kAsDeclared && !gltf) addColladaLamps(*scene, up_from_file, builder);
   if (!gltf) partBackToBack(collector.parts, builder);  // which says itself what is one-sided
   return std::move(collector.parts);
 }
