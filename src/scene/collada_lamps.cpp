@@ -96,4 +96,9 @@ void addColladaLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, 
   }
 }
 
+std::size_t lampsIn(const aiScene& scene) {
+  return static_cast<std::size_t>(std::count_if(scene.mLights, scene.mLights + scene.mNumLights,
+                                                [](const aiLight* light) { return isLamp(*light); }));
+}
+
 }  // namespace sunlit::scene

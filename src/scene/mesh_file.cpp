@@ -258,6 +258,13 @@ void warnOfLosses(const Collector& collector, const std::string& file, SceneBuil
   }
 }
 
+/// Lamps of models and robots are elements of their own.
+void warnOfLamps(const aiScene& scene, const std::string& file, SceneBuilder& builder) {
+  if (const std::size_t lamps = lampsIn(scene); lamps > 0)
+    builder.warn("meshes of models and robots have lights of their own, which are left out",
+                 std::to_string(lamps) + " in " + file);
+}
+
 void warnOfObj(const std::string& file, SceneBuilder& builder) {
   const ObjLibraries libraries = librariesOfObj(file);
   for (const std::string& material : libraries.missing)
@@ -332,8 +339,12 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   Collector collector{*scene, looks, gltf, up_from_file};
   collector.collect(*scene->mRootNode, up_from_file);
   warnOfLosses(collector, file, builder);
-  if (up_axis == UpAxis::kAsDeclared && gltf) gltf_materials->addLights(up_from_file);
-  if (up_axis == UpAxis::kAsDeclared && !gltf) addColladaLamps(*scene, up_from_file, builder);
+  if (up_axis != UpAxis::kAsDeclared)
+    warnOfLamps(*scene, file, builder);
+  else if (gltf)
+    gltf_materials->addLights(up_from_file);
+  else
+    addColladaLamps(*scene, up_from_file, builder);
   if (!gltf) partBackToBack(collector.parts, builder);  // which says itself what is one-sided
   return std::move(collector.parts);
 }

@@ -188,6 +188,23 @@ TEST_F(GltfFloats, OfColoursAreSharesOfTheirLargest) {
   }
 }
 
+TEST_F(GltfFloats, OfOtherScenesAreNotShownAndTheseAreNamed) {
+  Parts parts;
+  std::string text = gltf(parts);
+  const std::string one = R"({"nodes":[0]})",
+                    all = R"({"name":"night","nodes":[]},)" + one + R"(,{"nodes":[0]})";
+  text.replace(text.find(one), one.size(), all);
+  text.replace(text.find("\"scene\":0"), 9, "\"scene\":1");
+  write("numbers.bin", kNumbers);
+  const std::string file = write("t.gltf", text);
+  const Scene scene = load(file, {});
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  EXPECT_EQ(scene.warnings,
+            std::vector<std::string>{"2 scenes were left out, of several in a glTF file the one that "
+                                     "it names is shown, or the first: night of " +
+                                     file + "; scene 2 of " + file});
+}
+
 TEST_F(GltfFloats, WhatIsNotThereIsNamed) {
   const auto error = [&](const Parts& parts) {
     write("numbers.bin", kNumbers);
