@@ -217,6 +217,13 @@ void askFor(const aiNode& node, const aiScene& scene, const std::string& file, T
   for (unsigned i = 0; i < node.mNumChildren; ++i) askFor(*node.mChildren[i], scene, file, budget);
 }
 
+std::vector<std::string> namesOfMaterials(const aiScene& scene) {
+  std::vector<std::string> names;
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i)
+    names.emplace_back(scene.mMaterials[i]->GetName().C_Str());
+  return names;
+}
+
 /// By their index in `scene`; none for those that no mesh uses, which Assimp adds of its own too.
 std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const MeshFileContext& context) {
   std::vector<std::optional<MeshLook>> looks(scene.mNumMaterials);
@@ -265,7 +272,8 @@ void warnOfLamps(const aiScene& scene, const std::string& file, SceneBuilder& bu
                  std::to_string(lamps) + " in " + file);
 }
 
-void warnOfObj(const std::string& file, SceneBuilder& builder) {
+/// The files of its libraries; what of them is lost is named.
+std::vector<std::string> readLibraries(const std::string& file, SceneBuilder& builder) {
   const ObjLibraries libraries = librariesOfObj(file);
   for (const std::string& material : libraries.missing)
     builder.warn("materials are not there, and neutral ones stand for them", material);
@@ -273,6 +281,7 @@ void warnOfObj(const std::string& file, SceneBuilder& builder) {
   for (const std::string& library : libraries.placed)
     builder.warn("libraries of OBJ shift textures or repeat them by -o, -s or -t, which is not read",
                  library);
+  return libraries.files;
 }
 
 /// Assimp would find no reader for a folder, and miss anything but content in an empty file.
@@ -306,12 +315,13 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   const bool gltf = extension == ".gltf" || extension == ".glb";
   Assimp::Importer importer;
   std::optional<GltfMaterials> gltf_materials;
+  std::vector<std::string> libraries;
   if (gltf) {
     gltf_materials.emplace(file, builder);
     importer.SetIOHandler(gltf_materials->input().release());
   } else if (extension == ".obj") {
     importer.SetIOHandler(std::make_unique<ObjInput>().release());
-    warnOfObj(file, builder);
+    libraries = readLibraries(file, builder);
   }
   setUp(importer, up_axis);
   if (collada)
@@ -325,12 +335,11 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   }
 
   if (gltf) gltf_materials->nameTheRest(trianglesIn(*scene));
-  std::vector<std::string> names;
-  for (unsigned i = 0; i < scene->mNumMaterials; ++i)
-    names.emplace_back(scene->mMaterials[i]->GetName().C_Str());
-  const std::vector<std::optional<MeshLook>> looks =
-      addMaterials(*scene, MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
-                                           gltf ? gltf_materials->order(names) : std::vector<std::size_t>()});
+  const std::vector<std::optional<MeshLook>> looks = addMaterials(
+      *scene,
+      MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
+                      gltf ? gltf_materials->order(namesOfMaterials(*scene)) : std::vector<std::size_t>(),
+                      std::move(libraries)});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
   const bool y_up = (gltf || collada) && up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();

@@ -115,6 +115,7 @@ ObjLibraries librariesOfObj(const std::string& file) {
       missing += (missing.empty() ? "" : ", ") + name;
       library = std::filesystem::path(path).replace_extension("mtl");  // which Assimp then looks for
     }
+    libraries.files.push_back(library.string());
     const MtlContent content = contentOfMtl(withoutMark(contentOf(library.string())), library.string());
     known.insert(content.materials.begin(), content.materials.end());
     libraries.not_rendered.insert(libraries.not_rendered.end(), content.not_rendered.begin(),

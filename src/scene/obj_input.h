@@ -16,8 +16,9 @@ class ObjInput : public Assimp::DefaultIOSystem {
   Assimp::IOStream* Open(const char* path, const char* mode = "rb") override;
 };
 
-/// What the libraries of materials of an OBJ file do not have, and what of them is lost.
+/// The libraries of materials of an OBJ file, what they do not have, and what of them is lost.
 struct ObjLibraries {
+  std::vector<std::string> files;
   std::vector<std::string> missing;       ///< materials that it uses; each with what is known of why
   std::vector<std::string> not_rendered;  ///< MtlContent::not_rendered
   std::vector<std::string> placed;        ///< libraries that shift textures or say how often they repeat

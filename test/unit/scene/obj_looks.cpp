@@ -291,6 +291,21 @@ TEST_F(ObjLooks, TexturesAreFoundBehindTheirOptions) {
   EXPECT_TRUE(lookOf("map_Kd t.png\n").warnings.empty());
 }
 
+TEST_F(ObjLooks, TexturesMayStandBesideTheirLibrary) {
+  paint("mats/t.png", {200, 100, 50});
+  paint("mats/textures/u.png", {10, 20, 30});
+  for (const std::string name : {"t.png", "u.png"}) {
+    write("mats/m.mtl", "newmtl m\nmap_Kd " + name + "\n");
+    const std::string object = "usemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
+    const Scene scene = load(write("m.obj", "mtllib mats/m.mtl\n" + object), {});
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_NE(materialOf(scene).base_texture, Material::kNoTexture);
+  }
+  // What stands beside the object comes first.
+  paint("u.png", {1, 2, 3});
+  EXPECT_EQ(load(pathOf("m.obj"), {}).textures.at(0).rgba[0], 1);
+}
+
 TEST_F(ObjLooks, AMarkOfByteOrderIsNoVertex) {
   const Scene scene = load(write("b.obj", "\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {});
   EXPECT_EQ(scene.triangleCount(), 1u);
