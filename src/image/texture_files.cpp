@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -18,6 +19,7 @@
 #include "sunlit/image/encoded_size.h"
 #include "sunlit/image/files.h"
 #include "tga.h"
+#include "tiff_no_data.h"
 
 namespace sunlit::image {
 namespace {
@@ -274,25 +276,75 @@ Rgba8Image coveredBy(const Rgba8Image& picture, const Rgba8Image& opacity) {
   return covered;
 }
 
-Picture<float, 1> readGreyWithin(int longest_px, const std::string& file) {
-  const std::vector<std::uint8_t> bytes = contentOf(file);
-  isLarge(sizeInHeader(bytes.data(), bytes.size()), longest_px, file);
-  cv::Mat decoded = decode(bytes.data(), bytes.size(), file, cv::IMREAD_UNCHANGED);
+namespace {
+
+/// What pixels of elevation models have where nothing was measured, beside what their files say.
+class NoData {
+ public:
+  NoData(const std::uint8_t* bytes, std::size_t size) {
+    const std::optional<double> told = tiffNoData(bytes, size);
+    if (told && std::abs(*told) < kNearlyLargest) values_.push_back(static_cast<float>(*told));
+  }
+
+  bool operator()(float value) const {
+    return !(std::abs(value) < kNearlyLargest) ||  // NaN, too
+           std::find(values_.begin(), values_.end(), value) != values_.end();
+  }
+
+ private:
+  static constexpr float kNearlyLargest = 3.4e38f;
+  std::vector<float> values_ = {-9999.0f, -32768.0f, -32767.0f};
+};
+
+/// One value a pixel; NaN where any of its colours is none.
+cv::Mat greyOf(const cv::Mat& decoded, const NoData& no_data) {
   const int depth = decoded.depth();
-  const double full = depth == CV_8U ? 255.0 : depth == CV_16U ? 65535.0 : 1.0;
-  decoded.convertTo(decoded, CV_32F, 1.0 / full);
-  if (std::max(decoded.cols, decoded.rows) > longest_px) decoded = shrunk(decoded, longest_px);
-  Picture<float, 1> grey(decoded.cols, decoded.rows);
-  const int channels = decoded.channels(), colors = std::min(channels, 3);
-  for (int y = 0; y < decoded.rows; ++y) {
-    const float* row = decoded.ptr<float>(y);
-    for (int x = 0; x < decoded.cols; ++x) {
+  const float full = depth == CV_8U ? 255.0f : depth == CV_16U ? 65535.0f : 1.0f;
+  cv::Mat values, grey(decoded.size(), CV_32F);
+  decoded.convertTo(values, CV_32F);
+  const int channels = values.channels(), colors = std::min(channels, 3);
+  for (int y = 0; y < values.rows; ++y) {
+    const float* row = values.ptr<float>(y);
+    for (int x = 0; x < values.cols; ++x) {
       float sum = 0.0f;
-      for (int c = 0; c < colors; ++c) sum += row[channels * x + c];
-      *grey.at(x, y) = sum / static_cast<float>(colors);
+      for (int c = 0; c < colors; ++c) {
+        const float value = row[channels * x + c];
+        sum += no_data(value) ? std::numeric_limits<float>::quiet_NaN() : value / full;
+      }
+      grey.at<float>(y, x) = sum / static_cast<float>(colors);
     }
   }
   return grey;
+}
+
+/// Gives pixels that are NaN the lowest value of the others, or 0 where there is none. How many there were.
+std::size_t fillWithLowest(cv::Mat& grey) {
+  float lowest = std::numeric_limits<float>::infinity();
+  const auto begin = grey.begin<float>(), end = grey.end<float>();
+  std::for_each(begin, end, [&](float value) { lowest = std::min(lowest, value); });
+  if (!std::isfinite(lowest)) lowest = 0.0f;
+  std::size_t filled = 0;
+  std::for_each(begin, end, [&](float& value) {
+    if (!std::isnan(value)) return;
+    value = lowest;
+    ++filled;
+  });
+  return filled;
+}
+
+}  // namespace
+
+GreyPicture readGreyWithin(int longest_px, const std::string& file) {
+  const std::vector<std::uint8_t> bytes = contentOf(file);
+  isLarge(sizeInHeader(bytes.data(), bytes.size()), longest_px, file);
+  cv::Mat grey = greyOf(decode(bytes.data(), bytes.size(), file, cv::IMREAD_UNCHANGED),
+                        NoData(bytes.data(), bytes.size()));
+  GreyPicture read;
+  read.filled = fillWithLowest(grey);
+  if (std::max(grey.cols, grey.rows) > longest_px) grey = shrunk(grey, longest_px);
+  read.values = Picture<float, 1>(grey.cols, grey.rows);
+  grey.copyTo(cv::Mat(grey.rows, grey.cols, CV_32F, read.values.data.data()));
+  return read;
 }
 
 std::string encodePng(const Rgba8Image& picture) {

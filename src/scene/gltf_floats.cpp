@@ -40,6 +40,13 @@ std::map<std::size_t, bool> accessorsOfFloats(const json& root) {
   return found;
 }
 
+/// Whole numbers; and floats of a sparse accessor, whose views Assimp 5.2 takes for without gaps.
+bool wantsMaking(const json& accessor) {
+  if (accessor.contains("sparse"))
+    return tellsWholeNumbers(accessor) || indexOf(accessor, "componentType", 0) == kFloatComponent;
+  return tellsWholeNumbers(accessor) && accessor.contains("bufferView");
+}
+
 }  // namespace
 
 bool useFloats(json& root, GltfBuffers& buffers) {
@@ -48,8 +55,7 @@ bool useFloats(json& root, GltfBuffers& buffers) {
   for (const auto& [index, is_color] : accessorsOfFloats(root)) {
     if (index >= child(root, "accessors").size()) continue;  // Assimp says so
     json& accessor = root["accessors"][index];
-    if (!tellsWholeNumbers(accessor) || (!accessor.contains("bufferView") && !accessor.contains("sparse")))
-      continue;
+    if (!wantsMaking(accessor)) continue;
     // No colour is meant as 255 whole ones, though files may forget to say so; other readers divide all.
     if (is_color) accessor["normalized"] = true;
     const std::vector<float> floats = floatsOf(root, accessor, buffers);

@@ -111,6 +111,10 @@ void GltfMaterials::nameTheRest(std::uint64_t triangles) const {
   for (const std::string& lost : shapesNotRead(json_->root, file_))
     builder_.warn("nodes have a shape that is not read whole", lost);
   try {
+    for (const std::string& lost : scenesNotShown(json_->root, file_))
+      builder_.warn(
+          "scenes were left out, of several in a glTF file the one that it names is shown, or the first",
+          lost);
     const std::uint64_t told = trianglesOfScene(json_->root);
     if (told > triangles)
       builder_.warn("files have triangles of vertices that are not there, they are left out",

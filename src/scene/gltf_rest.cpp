@@ -70,6 +70,19 @@ std::uint64_t trianglesOfScene(const json& root) {
   return triangles;
 }
 
+std::vector<std::string> scenesNotShown(const json& root, const std::string& file) {
+  std::vector<std::string> lost;
+  const json& scenes = child(root, "scenes");
+  const std::size_t shown = indexOf(root, "scene", 0);
+  for (std::size_t i = 0; scenes.is_array() && i < scenes.size(); ++i) {
+    const json& name = child(scenes[i], "name");
+    if (i != shown)
+      lost.push_back((name.is_string() ? name.get<std::string>() : "scene " + std::to_string(i)) + " of " +
+                     file);
+  }
+  return lost;
+}
+
 std::vector<std::string> shapesNotRead(const json& root, const std::string& file) {
   std::vector<std::string> lost;
   std::map<std::size_t, Skin> skin_of_mesh;

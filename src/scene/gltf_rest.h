@@ -12,6 +12,9 @@ namespace sunlit::scene {
 /// the file does not say it as glTF does.
 std::uint64_t trianglesOfScene(const nlohmann::json& root);
 
+/// The scenes of `file` but the one that is shown, each by its name. Throws as trianglesOfScene().
+std::vector<std::string> scenesNotShown(const nlohmann::json& root, const std::string& file);
+
 /// The nodes and meshes of `file` that are drawn otherwise than it says, each with what of it is not read.
 std::vector<std::string> shapesNotRead(const nlohmann::json& root, const std::string& file);
 

@@ -19,6 +19,7 @@
 #include "scene/assimp_nodes.h"
 #include "scene/back_to_back.h"
 #include "scene/collada_check.h"
+#include "scene/collada_lamps.h"
 #include "scene/collada_sets.h"
 #include "scene/collada_text.h"
 #include "scene/color.h"
@@ -133,17 +134,18 @@ void setUp(Assimp::Importer& importer, UpAxis up_axis) {
 const aiScene* prepared(Assimp::Importer& importer, bool gltf) {
   const aiScene* const scene = importer.GetScene();
   if (scene == nullptr) return nullptr;
-  bool is_colored = false;
+  bool has_more = false;  // than one set of texture coordinates a vertex
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     aiMesh& mesh = *scene->mMeshes[i];
-    is_colored = is_colored || mesh.HasVertexColors(0);
+    has_more = has_more || mesh.HasVertexColors(0) || mesh.GetNumUVChannels() > 1;
     if (hasVoidNormals(mesh)) delete[] std::exchange(mesh.mNormals, nullptr);
   }
   unsigned steps = kSteps;
   if (!gltf) {
     steps |= aiProcess_GenSmoothNormals;
-    // COLLADA and OBJ index each array apart. Assimp 5.2 joins vertices of different colours, too.
-    if (!is_colored) steps |= aiProcess_JoinIdenticalVertices;
+    // COLLADA and OBJ index each array apart. Assimp 5.2 joins vertices of different colours or further sets
+    // of texture coordinates, too.
+    if (!has_more) steps |= aiProcess_JoinIdenticalVertices;
   }
   return importer.ApplyPostProcessing(steps);
 }
@@ -215,6 +217,13 @@ void askFor(const aiNode& node, const aiScene& scene, const std::string& file, T
   for (unsigned i = 0; i < node.mNumChildren; ++i) askFor(*node.mChildren[i], scene, file, budget);
 }
 
+std::vector<std::string> namesOfMaterials(const aiScene& scene) {
+  std::vector<std::string> names;
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i)
+    names.emplace_back(scene.mMaterials[i]->GetName().C_Str());
+  return names;
+}
+
 /// By their index in `scene`; none for those that no mesh uses, which Assimp adds of its own too.
 std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const MeshFileContext& context) {
   std::vector<std::optional<MeshLook>> looks(scene.mNumMaterials);
@@ -226,39 +235,6 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
     if (used[i]) looks[i] = addMeshMaterial(i, scene, context);
   }
   return looks;
-}
-
-/// COLLADA gives colours without a unit and whole cones.
-Lamp lampOf(const aiLight& light, const Eigen::Affine3d& up_from_node) {
-  Lamp lamp;
-  lamp.name = lamp.group = light.mName.C_Str();
-  lamp.relative = true;
-  const aiColor3D& color = light.mColorDiffuse;
-  lamp.intensity = linearFromBright({color.r, color.g, color.b});
-  const aiVector3D &at = light.mPosition, &to = light.mDirection;
-  lamp.position = (up_from_node * Eigen::Vector3d(at.x, at.y, at.z)).cast<float>();
-  lamp.constant = light.mAttenuationConstant;
-  lamp.linear = light.mAttenuationLinear;
-  lamp.quadratic = light.mAttenuationQuadratic;
-  if (light.mType != aiLightSource_SPOT) return lamp;
-  lamp.direction = (up_from_node.linear() * Eigen::Vector3d(to.x, to.y, to.z)).normalized().cast<float>();
-  lamp.outer_rad = std::clamp(0.5f * light.mAngleOuterCone, 0.0f, Lamp::kAllAround_rad);
-  lamp.inner_rad = std::clamp(0.5f * light.mAngleInnerCone, 0.0f, lamp.outer_rad);
-  return lamp;
-}
-
-/// Of COLLADA.
-void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBuilder& builder) {
-  for (unsigned i = 0; i < scene.mNumLights; ++i) {
-    const aiLight& light = *scene.mLights[i];
-    if (light.mType != aiLightSource_POINT && light.mType != aiLightSource_SPOT) {
-      builder.warn(kOtherLights, light.mName.C_Str());
-      continue;
-    }
-    const aiNode* const node = scene.mRootNode->FindNode(light.mName);
-    // Without a node it stands nowhere.
-    if (node != nullptr) builder.addLamp(lampOf(light, up_from_file * fileFromNode(*node)));
-  }
 }
 
 /// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended.
@@ -289,15 +265,23 @@ void warnOfLosses(const Collector& collector, const std::string& file, SceneBuil
   }
 }
 
-void warnOfObj(const std::string& file, SceneBuilder& builder) {
-  const ObjLosses losses = lossesOfObj(file);
-  for (const std::string& material : losses.materials)
+/// Lamps of models and robots are elements of their own.
+void warnOfLamps(const aiScene& scene, const std::string& file, SceneBuilder& builder) {
+  if (const std::size_t lamps = lampsIn(scene); lamps > 0)
+    builder.warn("meshes of models and robots have lights of their own, which are left out",
+                 std::to_string(lamps) + " in " + file);
+}
+
+/// The files of its libraries; what of them is lost is named.
+std::vector<std::string> readLibraries(const std::string& file, SceneBuilder& builder) {
+  const ObjLibraries libraries = librariesOfObj(file);
+  for (const std::string& material : libraries.missing)
     builder.warn("materials are not there, and neutral ones stand for them", material);
-  for (const std::string& material : losses.mirroring)
-    builder.warn(kNotRendered, material + ": a picture of what it mirrors: it mirrors what there is");
-  for (const std::string& library : losses.placed)
+  for (const std::string& material : libraries.not_rendered) builder.warn(kNotRendered, material);
+  for (const std::string& library : libraries.placed)
     builder.warn("libraries of OBJ shift textures or repeat them by -o, -s or -t, which is not read",
                  library);
+  return libraries.files;
 }
 
 /// Assimp would find no reader for a folder, and miss anything but content in an empty file.
@@ -331,12 +315,13 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   const bool gltf = extension == ".gltf" || extension == ".glb";
   Assimp::Importer importer;
   std::optional<GltfMaterials> gltf_materials;
+  std::vector<std::string> libraries;
   if (gltf) {
     gltf_materials.emplace(file, builder);
     importer.SetIOHandler(gltf_materials->input().release());
   } else if (extension == ".obj") {
     importer.SetIOHandler(std::make_unique<ObjInput>().release());
-    warnOfObj(file, builder);
+    libraries = readLibraries(file, builder);
   }
   setUp(importer, up_axis);
   if (collada)
@@ -350,12 +335,11 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   }
 
   if (gltf) gltf_materials->nameTheRest(trianglesIn(*scene));
-  std::vector<std::string> names;
-  for (unsigned i = 0; i < scene->mNumMaterials; ++i)
-    names.emplace_back(scene->mMaterials[i]->GetName().C_Str());
-  const std::vector<std::optional<MeshLook>> looks =
-      addMaterials(*scene, MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
-                                           gltf ? gltf_materials->order(names) : std::vector<std::size_t>()});
+  const std::vector<std::optional<MeshLook>> looks = addMaterials(
+      *scene,
+      MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
+                      gltf ? gltf_materials->order(namesOfMaterials(*scene)) : std::vector<std::size_t>(),
+                      std::move(libraries)});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
   const bool y_up = (gltf || collada) && up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
@@ -364,8 +348,12 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   Collector collector{*scene, looks, gltf, up_from_file};
   collector.collect(*scene->mRootNode, up_from_file);
   warnOfLosses(collector, file, builder);
-  if (up_axis == UpAxis::kAsDeclared && gltf) gltf_materials->addLights(up_from_file);
-  if (up_axis == UpAxis::kAsDeclared && !gltf) addLamps(*scene, up_from_file, builder);
+  if (up_axis != UpAxis::kAsDeclared)
+    warnOfLamps(*scene, file, builder);
+  else if (gltf)
+    gltf_materials->addLights(up_from_file);
+  else
+    addColladaLamps(*scene, up_from_file, builder);
   if (!gltf) partBackToBack(collector.parts, builder);  // which says itself what is one-sided
   return std::move(collector.parts);
 }

@@ -20,6 +20,8 @@ struct MeshFileContext {
   const ResourceFinder& finder;
   SceneBuilder& builder;
   std::vector<std::size_t> gltf_order = {};  ///< GltfMaterials::order() of a glTF file
+  std::vector<std::string> libraries =
+      {};  ///< of materials of an OBJ file, beside which pictures may be, too
 };
 
 /// A material in the builder, and the texture coordinates that it wants of its meshes.

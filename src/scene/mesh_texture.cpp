@@ -5,7 +5,11 @@
 namespace sunlit::scene {
 
 std::optional<std::string> textureFile(const std::string& name, const MeshFileContext& context) {
-  const Found found = context.finder.findTexture(name, context.file);
+  Found found = context.finder.findTexture(name, context.file);
+  for (const std::string& library : context.libraries) {
+    if (found.file) break;
+    if (const Found beside = context.finder.findTexture(name, library); beside.file) found = beside;
+  }
   if (!found.file) context.builder.warn(kMissingTextures, name + " of " + context.file);
   if (found.file && found.other_case)
     context.builder.warn(kSpeltOtherwise, name + " of " + context.file + " is " + *found.file);

@@ -58,11 +58,14 @@ void remark(const std::string& line, SceneBuilder& builder) {
   }
 }
 
-/// Each element below `parent` but those within includes, which may be taken out with their includes.
-void forEachOutsideIncludes(XMLElement& parent, const std::function<void(XMLElement&)>& use) {
+/// Each element below `parent` but those within includes, which may be taken out with their includes, and
+/// within what is taken out of `sdf`, the root element.
+void forEachThatRemains(XMLElement& parent, const XMLElement& sdf,
+                        const std::function<void(XMLElement&)>& use) {
   for (XMLElement* child : childrenOf(parent)) {
     use(*child);
-    if (std::string(child->Value()) != "include") forEachOutsideIncludes(*child, use);
+    if (std::string(child->Value()) != "include" && !isTakenOut(*child, sdf))
+      forEachThatRemains(*child, sdf, use);
   }
 }
 
@@ -181,7 +184,7 @@ const SdfFile& SdfFiles::open(const std::string& path) {
 
 void SdfFiles::resolveIncludes(XMLElement& sdf, SdfFile& file) {
   std::vector<XMLElement*> includes;
-  forEachOutsideIncludes(sdf, [&](XMLElement& element) {
+  forEachThatRemains(sdf, sdf, [&](XMLElement& element) {
     if (std::string(element.Value()) == "include") includes.push_back(&element);
     if (std::string(element.Value()) == "model") ++file.models;
   });

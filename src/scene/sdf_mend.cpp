@@ -1,13 +1,12 @@
 #include "scene/sdf_mend.h"
 
-#include <cmath>
-#include <cstdint>
 #include <map>
 #include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "scene/sdf_remarks.h"
 #include "scene/sdf_xml.h"
 #include "sunlit/quantity/columns.h"
 
@@ -54,9 +53,6 @@ const std::map<std::string, Children> kChildren = {
 
 const Words kLightTypes = {"point", "spot", "directional"};
 
-/// The flags of a visual that has none.
-constexpr std::uint32_t kEveryCamera = 0xFFFFFFFF;
-
 /// The newest version that libsdformat 12 reads is 1.9, and the elements above are those from 1.4 on.
 constexpr int kNewest = 9;
 constexpr int kOldestPruned = 4;
@@ -70,10 +66,11 @@ int minorVersion(const XMLElement& sdf) {
   return plain && version[2] >= '0' && version[2] <= '9' ? version[2] - '0' : -1;
 }
 
-std::string described(const XMLElement& element, const std::string& file) {
-  const std::string name = attributeOf(element, "name");
-  return std::string("<") + element.Value() + ">" + (name.empty() ? "" : " " + name) + " of " +
-         placeOf(file, element);
+/// What libsdformat is strict about in links of older versions, and nobody sees.
+bool isUnseenOfOld(const XMLElement& element, const XMLElement& parent) {
+  const std::string kind = element.Value();
+  return std::string(parent.Value()) == "link" &&
+         (kind == "collision" || kind == "inertial" || kind == "sensor");
 }
 
 /// How many numbers there are in `text`; 0 where there is anything else.
@@ -90,7 +87,7 @@ class Mender {
       : file_(file), version_(version), builder_(builder) {}
 
   void mend(XMLElement& sdf) {
-    forEachBelow(sdf, [&](XMLElement& element) { nameOtherwise(element); });
+    remarkOnSdf(sdf, file_, builder_);
     if (version_ >= kOldestPruned) {
       prune(sdf);
     } else {
@@ -123,48 +120,10 @@ class Mender {
     }
   }
 
-  /// Names what a simulator's cameras see otherwise. What worlds have as they are made is nothing that they
-  /// ask for.
-  void nameOtherwise(XMLElement& element) {
-    const std::string kind = element.Value();
-    if (kind == "visibility_flags") {
-      std::istringstream text(element.GetText() == nullptr ? "" : element.GetText());
-      std::uint32_t flags = kEveryCamera;
-      if (text >> flags && flags != kEveryCamera)
-        builder_.warn("visuals have <visibility_flags>, every camera sees them", placeOf(file_, element));
-    }
-    if (kind != "scene") return;
-    const auto name = [&](const XMLElement& part, const std::string& instead) {
-      builder_.warn("elements of <scene> are not rendered", described(part, file_) + ": " + instead);
-    };
-    for (XMLElement* fog : childrenOf(element, "fog")) {
-      const std::string type = childText(*fog, "type");
-      if (!type.empty() && type != "none") name(*fog, "fog is a parameter of the weather");
-    }
-    for (const XMLElement* background : childrenOf(element, "background")) {
-      if (element.FirstChildElement("sky") == nullptr && !isUsualBackground(*background))
-        name(*background, "the sky is computed");
-    }
-    for (const XMLElement* shadows : childrenOf(element, "shadows")) {
-      if (!shadows->BoolText(true)) name(*shadows, "everything casts shadows");
-    }
-  }
-
-  /// Of any grey: Gazebo classic writes 0.7, its successor 0.8.
-  static bool isUsualBackground(const XMLElement& background) {
-    std::istringstream text(background.GetText() == nullptr ? "" : background.GetText());
-    float red = 0.0f, green = 0.0f, blue = 0.0f;
-    if (!(text >> red >> green >> blue)) return true;  // libsdformat speaks of what it cannot read
-    return std::abs(red - green) < 1e-3f && std::abs(green - blue) < 1e-3f;
-  }
-
-  /// Of older versions, whose elements stand elsewhere: what libsdformat is strict about in links, and nobody
-  /// sees.
+  /// Of older versions, whose elements stand elsewhere.
   static void dropUnseen(XMLElement& parent) {
-    const bool link = std::string(parent.Value()) == "link";
     for (XMLElement* child : childrenOf(parent)) {
-      const std::string kind = child->Value();
-      if (link && (kind == "collision" || kind == "inertial" || kind == "sensor")) {
+      if (isUnseenOfOld(*child, parent)) {
         parent.DeleteChild(child);
       } else {
         dropUnseen(*child);
@@ -338,6 +297,14 @@ class Mender {
 };
 
 }  // namespace
+
+bool isTakenOut(const XMLElement& element, const XMLElement& sdf) {
+  const XMLElement& parent = *element.Parent()->ToElement();
+  const int version = minorVersion(sdf);
+  if (version >= 0 && version < kOldestPruned) return isUnseenOfOld(element, parent);
+  const auto known = kChildren.find(parent.Value());
+  return known != kChildren.end() && known->second.kept.count(element.Value()) == 0;
+}
 
 void mendSdf(XMLElement& sdf, const std::string& file, SceneBuilder& builder) {
   int version = minorVersion(sdf);

@@ -22,6 +22,9 @@ constexpr const char* kNoNormals = "none";
 /// others that include the file may, become frames.
 void mendSdf(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& builder);
 
+/// Whether mendSdf() takes `element`, of a file whose root element is `sdf`, out with all that is in it.
+bool isTakenOut(const tinyxml2::XMLElement& element, const tinyxml2::XMLElement& sdf);
+
 /// Leaves the first world of `sdf`, the root element of `file`: each of several has a place of its own. The
 /// others are a warning of `builder`.
 void keepFirstWorld(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& builder);

@@ -85,7 +85,8 @@ std::optional<Mesh> terrainOf(const SdfHeightmap& source, const TerrainUse& use,
       throw std::runtime_error(place + ": there is no height map " + source.Uri() +
                                "; it was looked for as " + placesTried(found));
     }
-    const image::Picture<float, 1> values = image::readGreyWithin(kMostTerrainVertices, *found.file);
+    const image::GreyPicture grey = image::readGreyWithin(kMostTerrainVertices, *found.file);
+    const image::Picture<float, 1>& values = grey.values;
     TerrainGrid grid;
     grid.width = values.width;
     grid.depth = values.height;
@@ -93,6 +94,9 @@ std::optional<Mesh> terrainOf(const SdfHeightmap& source, const TerrainUse& use,
     grid.size = {source.Size().X(), source.Size().Y()};
     if (grid.width < 2 || grid.depth < 2 || !(grid.size.minCoeff() > 0.0))
       throw std::runtime_error(place + ": its height map has no area");
+    if (grey.filled > 0)
+      builder.warn("height maps have pixels without a height, the lowest of the others stands for them",
+                   use.visual + ", " + std::to_string(grey.filled) + " of " + *found.file);
     if (source.Size() ==
         ignition::math::Vector3d::One)  // which Gazebo takes for the size of a DEM's own land
       builder.warn("height maps without a <size> are taken as 1 × 1 × 1 m, elevation models need one, too",

@@ -106,6 +106,12 @@ std::string placeOf(const std::string& file, const tinyxml2::XMLElement& element
   return file + ":" + std::to_string(element.GetLineNum());
 }
 
+std::string described(const tinyxml2::XMLElement& element, const std::string& file) {
+  const std::string name = attributeOf(element, "name");
+  return std::string("<") + element.Value() + ">" + (name.empty() ? "" : " " + name) + " of " +
+         placeOf(file, element);
+}
+
 void forEachBelow(tinyxml2::XMLElement& parent, const std::function<void(tinyxml2::XMLElement&)>& use) {
   for (tinyxml2::XMLElement* child : childrenOf(parent)) {
     use(*child);

@@ -35,6 +35,8 @@ tinyxml2::XMLElement& newChildIn(tinyxml2::XMLElement& parent, const char* name)
 
 /// "<file>:<line>".
 std::string placeOf(const std::string& file, const tinyxml2::XMLElement& element);
+/// "<<kind>> <name> of <file>:<line>".
+std::string described(const tinyxml2::XMLElement& element, const std::string& file);
 
 /// Each element below `parent`, parents first. None may be taken out meanwhile.
 void forEachBelow(tinyxml2::XMLElement& parent, const std::function<void(tinyxml2::XMLElement&)>& use);

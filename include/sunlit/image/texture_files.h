@@ -40,9 +40,16 @@ FittedImage readRgbaWithin(int longest_px, const std::string& file);
 /// green and blue; as wide as the wider and as high as the higher of them.
 Rgba8Image coveredBy(const Rgba8Image& picture, const Rgba8Image& opacity);
 
-/// One value a pixel, such as heights: 8 and 16 bit as shares of their full range, floats as they are; of
-/// colours the mean of red, green and blue. Throws std::runtime_error as readRgbaWithin() does.
-Picture<float, 1> readGreyWithin(int longest_px, const std::string& file);
+/// One value a pixel.
+struct GreyPicture {
+  Picture<float, 1> values;
+  std::size_t filled = 0;  ///< how many pixels of the file tell no value
+};
+/// Such as heights: 8 and 16 bit as shares of their full range, floats as they are; of colours the mean of
+/// red, green and blue. Pixels for which a file tells that nothing was measured, by its tag 42113, −9999,
+/// −32768, −32767, ±3.4e38 or more, or as no number, get the lowest value of the others. Throws
+/// std::runtime_error as readRgbaWithin() does.
+GreyPicture readGreyWithin(int longest_px, const std::string& file);
 
 /// A PNG file in memory, lossless. Throws std::runtime_error if the picture is empty.
 std::string encodePng(const Rgba8Image& picture);

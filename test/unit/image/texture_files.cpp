@@ -217,7 +217,7 @@ TEST(DecodeRgba, FloatsAreNoValuesOfADisplay) {
   EXPECT_EQ(messageOf<std::runtime_error>([&] { texelOf(tiff); }), error(""));
   const TemporaryFolder folder;
   setContent(folder.file("heights.tiff"), tiff);
-  EXPECT_FLOAT_EQ(*readGreyWithin(8, folder.file("heights.tiff")).at(1, 1), 0.18f);
+  EXPECT_FLOAT_EQ(*readGreyWithin(8, folder.file("heights.tiff")).values.at(1, 1), 0.18f);
   EXPECT_THROW(readRgbaWithin(8, folder.file("heights.tiff")), std::runtime_error);
 }
 

@@ -1,7 +1,10 @@
 // Sets of texture coordinates of COLLADA.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "scene/collada_sets.h"
 #include "support/needs.h"
@@ -101,6 +104,28 @@ TEST_F(ColladaSets, OfEachTextureAreItsOwn) {
   EXPECT_EQ(mesh.texture_coordinates.at(0).x(), 0.0f);
   ASSERT_EQ(scene.materials.at(static_cast<std::size_t>(mesh.material)).emission_map.coordinates, 1);
   EXPECT_EQ(mesh.more_texture_coordinates.at(0).at(0).x(), 1.0f);
+}
+
+// Corners of two triangles that are one but for the second set, as pictures of a whole house have it.
+TEST_F(ColladaSets, KeepVerticesApartThatDifferInTheSecond) {
+  std::string text =
+      triangleOf(textured("diffuse", "A"), coordinates("u", 0) + coordinates("w", 1), bound("A", 1));
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("count='1'>", "count='2'>");
+  replace("<p>0 0 0 1 1 1 2 2 2</p>", "<p>0 0 0 1 1 1 2 2 2 0 0 0 1 1 0 2 2 0</p>");
+  replace("1 0 1 0 1 1", "0 0.25 0 0.5 0 0.75");
+  writeTexture("paint.png");
+  const Scene scene = load(write("m.dae", text), {});
+  std::vector<float> of_corners;
+  for (const Mesh& mesh : scene.meshes) {
+    for (const auto& triangle : mesh.triangles)
+      for (const std::uint32_t corner : triangle)
+        of_corners.push_back(1.0f - mesh.texture_coordinates.at(corner).y());
+  }
+  std::sort(of_corners.begin(), of_corners.end());
+  EXPECT_EQ(of_corners, (std::vector<float>{0.25f, 0.25f, 0.25f, 0.25f, 0.5f, 0.75f}));
 }
 
 TEST_F(ColladaSets, OfAnotherMaterialAreTheFirst) {

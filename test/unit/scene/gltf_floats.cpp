@@ -137,6 +137,33 @@ TEST_F(GltfFloats, OfSparseAccessorsAreThoseThatAreChanged) {
             pathOf("t.gltf") + ": a sparse attribute changes element 100 of 3");
 }
 
+/// A triangle of floats, each vertex followed by 8 bytes of something else, whose last two are told anew.
+std::string sparseFloats(const std::string& offset) {
+  const float other = 77.0f;
+  const std::string numbers =
+      bytesOf<float>({0, 0, 0, other, other, 1, 0, 0, other, other, 0, 1, 0, other, other}) +
+      bytesOf<std::uint16_t>({1, 2}) + bytesOf<float>({5, 0, 0, 0, 7, 0});
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[
+{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,)" +
+         offset +
+         R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":1,
+"componentType":5123},"values":{"bufferView":2}}}],"bufferViews":[{"buffer":0,"byteLength":60,"byteStride":20},
+{"buffer":0,"byteOffset":60,"byteLength":4},{"buffer":0,"byteOffset":64,"byteLength":24}],"buffers":[
+{"byteLength":88,"uri":"data:;base64,)" +
+         base64(numbers) + "\"}]}";
+}
+
+// Assimp would copy what stands between them.
+TEST_F(GltfFloats, OfSparseAccessorsMayStandAmongOthers) {
+  for (const std::string offset : {"", "\"byteOffset\":0,"}) {
+    const Scene scene = load(write("t.gltf", sparseFloats(offset)), {});
+    ASSERT_EQ(scene.meshes.at(0).positions.size(), 3u);
+    const std::vector<Eigen::Vector3f> expected = {{0, 0, 0}, {5, 0, 0}, {0, 0, 7}};  // glTF's y is up
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LT((scene.meshes[0].positions[i] - expected[i]).norm(), 1e-6f) << i;
+  }
+}
+
 // Unsigned bytes, normalised whether the file says so or not; three of them in four.
 TEST_F(GltfFloats, OfColoursAreSharesOfTheirLargest) {
   for (const char* const normalized : {R"("normalized":true,)", ""}) {
@@ -159,6 +186,23 @@ TEST_F(GltfFloats, OfColoursAreSharesOfTheirLargest) {
     EXPECT_LT((scene.meshes[0].colors[0] - Eigen::Array3f(0.2f, 0.4f, 1.0f)).abs().maxCoeff(), 1e-6f);
     EXPECT_EQ(scene.meshes[0].colors[2].maxCoeff(), 0.0f);
   }
+}
+
+TEST_F(GltfFloats, OfOtherScenesAreNotShownAndTheseAreNamed) {
+  Parts parts;
+  std::string text = gltf(parts);
+  const std::string one = R"({"nodes":[0]})",
+                    all = R"({"name":"night","nodes":[]},)" + one + R"(,{"nodes":[0]})";
+  text.replace(text.find(one), one.size(), all);
+  text.replace(text.find("\"scene\":0"), 9, "\"scene\":1");
+  write("numbers.bin", kNumbers);
+  const std::string file = write("t.gltf", text);
+  const Scene scene = load(file, {});
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  EXPECT_EQ(scene.warnings,
+            std::vector<std::string>{"2 scenes were left out, of several in a glTF file the one that "
+                                     "it names is shown, or the first: night of " +
+                                     file + "; scene 2 of " + file});
 }
 
 TEST_F(GltfFloats, WhatIsNotThereIsNamed) {

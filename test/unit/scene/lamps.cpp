@@ -217,6 +217,28 @@ TEST_F(LampFiles, OfGltfThatShareALightStandAtEachOfItsNodes) {
   EXPECT_EQ(scene.warnings[0], std::string("1 ") + kOtherLights + ": sun");
 }
 
+TEST_F(LampFiles, OfMeshesOfModelsAreNamedAndLeftOut) {
+  SKIP_WITHOUT_SDF();
+  write("lit.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
+    "extensionsUsed":["KHR_lights_punctual"],
+    "extensions":{"KHR_lights_punctual":{"lights":[{"name":"bulb","type":"point"},{"name":"day","type":"directional"}]}},
+    "nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}},
+      {"extensions":{"KHR_lights_punctual":{"light":1}}}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],
+    "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  const Scene scene =
+      worldWith("",
+                "<visual name='m'><geometry><mesh><uri>lit.gltf</uri></mesh></geometry></visual>"
+                "<visual name='n'><geometry><mesh><uri>lit.gltf</uri></mesh></geometry></visual>");
+  EXPECT_TRUE(scene.lamps.empty());
+  EXPECT_EQ(scene.warnings,
+            std::vector<std::string>{
+                "1 meshes of models and robots have lights of their own, which are left out: 1 in " +
+                pathOf("lit.gltf")});
+}
+
 TEST_F(LampFiles, OfAUrdfStandInItsGazeboElements) {
   SKIP_WITHOUT_SDF();
   const Robot robot = parseUrdf(

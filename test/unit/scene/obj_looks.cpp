@@ -195,6 +195,47 @@ TEST_F(ObjLooks, PicturesThatAreNoNormalsAreNamed) {
   }
 }
 
+// Objects of several makers in one file.
+TEST_F(ObjLooks, VerticesWithoutAColourAreWhiteBesideOthers) {
+  const Scene scene = load(write("w.obj",
+                                 "o bare\nv 0 0 0\nv 1 0 0 # corner\nv 0 2 0 2\nf 1 2 3\n"
+                                 "o red\nv 0 0 1 1 0 0\nv 1 0 1 1 0 0\nv 0 1 1 1 0 0\nf 4 5 6\n"
+                                 "o last\nv 0 0 2\nv 1 0 2\nv 0 1 2\nf -3 -2 -1\n"),
+                           {});
+  ASSERT_EQ(scene.meshes.size(), 3u);
+  for (const Mesh& mesh : scene.meshes) {
+    const bool red = boundsOf(mesh).max().z() == 1.0f;
+    ASSERT_EQ(mesh.colors.size(), 3u);
+    for (const Eigen::Array3f& color : mesh.colors)
+      EXPECT_TRUE((color == Eigen::Array3f(1.0f, red ? 0.0f : 1.0f, red ? 0.0f : 1.0f)).all())
+          << color.transpose();
+    EXPECT_EQ(boundsOf(mesh).max().head<2>(), Eigen::Vector2f(1, 1));
+  }
+}
+
+// Assimp would give up the file for each of these words.
+TEST_F(ObjLooks, WordsThatAssimpDoesNotKnowStopNothing) {
+  const auto lossesOf = [&](const std::string& lines) {
+    const Scene scene = lookOf(lines);
+    EXPECT_EQ(scene.triangleCount(), 1u) << lines;
+    return scene.warnings;
+  };
+  const std::vector<std::pair<std::string, std::string>> lost = {
+      {"aniso 0.5\n", "aniso, a highlight"},        {"decal paint.png\n", "decal, a picture"},
+      {"d -halo 0.8\n", "d -halo, an opacity"},     {"Kd spectral grass.rfl\n", "Kd by spectral"},
+      {"Ks xyz 0.5 0.5 0.5\n", "Ks by xyz"},        {"Tf xyz 0.5\n", "Tf by xyz"},
+      {"Tf spectral glass.rfl\n", "Tf by spectral"}};
+  for (const auto& [lines, name] : lost) {
+    const std::vector<std::string> warnings = lossesOf(lines);
+    ASSERT_EQ(warnings.size(), 1u) << lines;
+    EXPECT_NE(warnings[0].find("m of " + pathOf("m.mtl") + ": " + name), std::string::npos) << warnings[0];
+  }
+  EXPECT_EQ(materialOf(lookOf("d -halo 0.8\n")).alpha, 0.8f);
+  for (const std::string nothing :
+       {"aniso 0\nanisor 0.25\n", "Ka spectral grass.rfl\nKa xyz 1\n", "d -halo 1\n"})
+    EXPECT_TRUE(lossesOf(nothing).empty()) << nothing;
+}
+
 // As SketchUp writes walls; drawn from both sides, either would flicker through the other.
 TEST_F(ObjLooks, FacesBackToBackAreOneSided) {
   write("m.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
@@ -248,6 +289,21 @@ TEST_F(ObjLooks, TexturesAreFoundBehindTheirOptions) {
                                        pathOf("m.mtl")});
   }
   EXPECT_TRUE(lookOf("map_Kd t.png\n").warnings.empty());
+}
+
+TEST_F(ObjLooks, TexturesMayStandBesideTheirLibrary) {
+  paint("mats/t.png", {200, 100, 50});
+  paint("mats/textures/u.png", {10, 20, 30});
+  for (const std::string name : {"t.png", "u.png"}) {
+    write("mats/m.mtl", "newmtl m\nmap_Kd " + name + "\n");
+    const std::string object = "usemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
+    const Scene scene = load(write("m.obj", "mtllib mats/m.mtl\n" + object), {});
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_NE(materialOf(scene).base_texture, Material::kNoTexture);
+  }
+  // What stands beside the object comes first.
+  paint("u.png", {1, 2, 3});
+  EXPECT_EQ(load(pathOf("m.obj"), {}).textures.at(0).rgba[0], 1);
 }
 
 TEST_F(ObjLooks, AMarkOfByteOrderIsNoVertex) {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -204,6 +206,28 @@ TEST_F(SdfShape, AHeightMapHasAVertexForEachPixelWhateverItsSampling) {
     EXPECT_NE(scene.warnings[0].find("<sampling>") == std::string::npos,
               scene.warnings.back().find("<sampling>") == std::string::npos);
   }
+}
+
+TEST_F(SdfShape, PixelsOfAHeightMapWithoutAHeightAreFilledAndCounted) {
+  cv::Mat heights(5, 5, CV_32FC1);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 5; ++x) heights.at<float>(y, x) = 100.0f + 50.0f * static_cast<float>(x);
+  }
+  heights.at<float>(0, 4) = -9999.0f;
+  heights.at<float>(1, 4) = std::numeric_limits<float>::quiet_NaN();
+  std::vector<unsigned char> bytes;
+  ASSERT_TRUE(cv::imencode(".tiff", heights, bytes));
+  const std::string file = write("land.tiff", {bytes.begin(), bytes.end()});
+  const Scene scene =
+      loaded(visual("<heightmap><uri>land.tiff</uri><size>40 20 8</size><pos>0 0 1</pos></heightmap>"));
+  EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(-20, -10, 1)).norm(), kTolerance);
+  EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(20, 10, 9)).norm(), kTolerance);
+  EXPECT_NEAR(nearestOnVertical(scene, {0, -3, 12})->z, 5.0, kTolerance);
+  EXPECT_EQ(std::count(scene.warnings.begin(), scene.warnings.end(),
+                       "1 height maps have pixels without a height, the lowest of the others stands for "
+                       "them: m::l::v, 2 of " +
+                           file),
+            1);
 }
 
 TEST_F(SdfShape, AHeightMapStandsAtItsPosAlone) {
