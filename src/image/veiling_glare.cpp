@@ -70,13 +70,12 @@ Eigen::Vector2d edgeFromAxis(const PinholeCamera& camera, const Eigen::Vector3d&
   return axis + reach * way;
 }
 
-/// The pixel of a light in the picture, up to its very edge.
+/// Of a light that lies between the middles of a picture's pixels.
 std::optional<Eigen::Vector2d> pixelOf(const Lens& lens, const Eigen::Vector3d& towards) {
   const std::optional<Eigen::Vector2d> pixel = lens.project(towards);
   if (!pixel) return std::nullopt;
   const Eigen::Array2d last = lastOf(lens.camera()), at = *pixel;
-  if (!((at >= -0.5).all() && (at < last + 0.5).all())) return std::nullopt;
-  return Eigen::Vector2d(at.max(0.0).min(last));
+  return (at >= 0.0).all() && (at <= last).all() ? pixel : std::nullopt;
 }
 
 /// The pixel nearest to where a light would lie. Other pictures are not on the way from their axis to it, or

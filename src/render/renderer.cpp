@@ -61,12 +61,13 @@ class Renderer::Implementation {
   Implementation(const std::vector<light::World>& states, const RenderOptions& options)
       : Implementation(states, checked(options),
                        {std::make_shared<const ReadyTextures>(firstOf(states)),
-                        std::make_shared<LensCanvases>(options)}) {}
+                        std::make_shared<LensCanvases>(options), nullptr}) {}
   Implementation(const Implementation& beside, const RenderOptions& options, States states)
       : Implementation(
             beside.worlds(states), checked(options),
-            {beside.textures_, beside.canvases_->areOf(options) ? beside.canvases_
-                                                                : std::make_shared<LensCanvases>(options)}) {}
+            {beside.textures_,
+             beside.canvases_->areOf(options) ? beside.canvases_ : std::make_shared<LensCanvases>(options),
+             &beside.states_.front().preparer}) {}
 
   void look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
     const bool drawn_ahead = !ahead_.samples.empty() &&
@@ -153,6 +154,7 @@ class Renderer::Implementation {
   struct Shared {
     std::shared_ptr<const ReadyTextures> textures;
     std::shared_ptr<LensCanvases> canvases;  ///< of the same lens
+    const light::PicturePreparer* preparer;  ///< of the same world; null: there is none
   };
   Implementation(const std::vector<light::World>& states, const RenderOptions& options, const Shared& shared)
       : options_(options),
@@ -163,7 +165,9 @@ class Renderer::Implementation {
         rasterizer_(makeRasterizer(options.rasterizer,
                                    {world_.geometry, textures_->pyramids, options.texture_lod_bias})),
         bands_(options, canvases_) {
-    for (const light::World& state : states) states_.emplace_back(state, options.final_gather);
+    const light::PicturePreparer* beside = shared.preparer;
+    for (const light::World& state : states)
+      beside = &states_.emplace_back(state, options.final_gather, beside).preparer;
   }
 
   std::vector<light::World> worlds(States states) const {
@@ -185,8 +189,8 @@ class Renderer::Implementation {
   };
   /// A state of the surfaces.
   struct State {
-    State(const light::World& world_in_it, int final_gather)
-        : world(world_in_it), preparer(world, final_gather) {}
+    State(const light::World& world_in_it, int final_gather, const light::PicturePreparer* beside)
+        : world(world_in_it), preparer(world, final_gather, beside) {}
     light::World world;
     light::PicturePreparer preparer;
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -63,7 +64,9 @@ class PicturePreparer {
   /// `final_gather`, 0 … kMostRays: 0, and leaves, twigs and wires see the sky as baked; else, where light is
   /// baked, they look closer at it, with so many rays to each of its patches, and what they find is kept for
   /// the next poses. Throws std::invalid_argument naming key, value and range.
-  explicit PicturePreparer(const World& world, int final_gather = 0);
+  /// `beside`: of the same triangles, in whichever state of their surfaces: what it finds with as many rays
+  /// serves this one, and the other way round. Other threads may prepare by it meanwhile.
+  explicit PicturePreparer(const World& world, int final_gather = 0, const PicturePreparer* beside = nullptr);
   ~PicturePreparer();
   PicturePreparer(const PicturePreparer&) = delete;
   PicturePreparer& operator=(const PicturePreparer&) = delete;
@@ -71,6 +74,9 @@ class PicturePreparer {
   /// Replaces `picture`, whose memory is used again. Parallel; the same bits for any number of threads and
   /// whatever was prepared before.
   void prepare(PictureGeometry geometry, PreparedPicture* picture);
+
+  /// Places that the last look of `final_gather` had to cast rays from.
+  std::size_t placesCast() const;
 
  private:
   class Implementation;

@@ -84,7 +84,7 @@ class Renderer {
   /// A world of its own, in which surfaces see the whole sky that they face.
   Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options);
   /// Another camera in the states of `beside`, or only in the first one, with which it shares what their
-  /// textures became.
+  /// textures became, and what final_gather found, if it is the same.
   enum class States { kAll, kFirst };
   Renderer(const Renderer& beside, const RenderOptions& options, States states);
   ~Renderer();

@@ -63,10 +63,14 @@ struct PreparedPicture::Implementation {
 
 class PicturePreparer::Implementation {
  public:
-  Implementation(const World& world, int final_gather) : world_(world) {
+  Implementation(const World& world, int final_gather, const Implementation* beside) : world_(world) {
     require("final_gather", final_gather, {0, kMostRays});
-    if (world.transport && final_gather > 0)
-      gather_ = std::make_unique<FinalGather>(world.geometry, world.visibility, final_gather);
+    if (world.transport && final_gather > 0) {
+      if (beside && beside->gather_ && beside->gather_->finds(*world.geometry, final_gather))
+        gather_ = beside->gather_;
+      else
+        gather_ = std::make_shared<FinalGather>(world.geometry, world.visibility, final_gather);
+    }
     if (world.bodies) body_light_ = std::make_shared<const BodyLight>(world);
   }
 
@@ -83,9 +87,11 @@ class PicturePreparer::Implementation {
     makeReady({world_, visibility, picture->body_light.get(), gather_.get()}, &picture->ready);
   }
 
+  std::size_t placesCast() const { return gather_ ? gather_->nodesCast() : 0; }
+
  private:
   World world_;
-  std::unique_ptr<FinalGather> gather_;          ///< where it is asked for
+  std::shared_ptr<FinalGather> gather_;          ///< where it is asked for
   std::shared_ptr<const BodyLight> body_light_;  ///< where there are bodies
 };
 
@@ -108,12 +114,16 @@ Surfaces PreparedPicture::takeSurfaces() {
   return implementation_->takeSurfaces();
 }
 
-PicturePreparer::PicturePreparer(const World& world, int final_gather)
-    : implementation_(std::make_unique<Implementation>(world, final_gather)) {}
+PicturePreparer::PicturePreparer(const World& world, int final_gather, const PicturePreparer* beside)
+    : implementation_(std::make_unique<Implementation>(world, final_gather,
+                                                       beside ? beside->implementation_.get() : nullptr)) {}
 PicturePreparer::~PicturePreparer() = default;
 
 void PicturePreparer::prepare(PictureGeometry geometry, PreparedPicture* picture) {
   implementation_->prepare(std::move(geometry), picture->implementation_.get());
+}
+std::size_t PicturePreparer::placesCast() const {
+  return implementation_->placesCast();
 }
 
 }  // namespace sunlit::light

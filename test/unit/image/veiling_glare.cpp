@@ -187,7 +187,9 @@ TEST(VeilingGlare, FadesWithoutAStepAlsoWhereThePictureIsAsWideAsTheHoodOrWider)
       return static_cast<double>(veil.meanOf(light).value[0]);
     };
     constexpr double kFrom_deg = 20.0, kStep_deg = 0.1;
-    const double inside = meanOf(kFrom_deg);
+    const PinholeCamera& camera = published.camera;
+    const Eigen::Vector3d edge = published.lens().unproject({camera.width - 1.0, camera.cy}).value();
+    const double inside = meanOf(std::atan2(edge.x(), edge.z()) / kRadPerDeg);
     EXPECT_GT(inside, 0.0) << published.name;
     for (double angle_deg = kFrom_deg; angle_deg < 180.0; angle_deg += kStep_deg)
       EXPECT_LE(std::abs(meanOf(angle_deg + kStep_deg) - meanOf(angle_deg)), 0.045 * inside)

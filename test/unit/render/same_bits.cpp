@@ -5,9 +5,11 @@
 #include <cstring>
 #include <future>
 #include <random>
+#include <vector>
 
 #include "sunlit/light/picture.h"
 #include "sunlit/light/transport.h"
+#include "sunlit/scene/weathering.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -128,6 +130,57 @@ TEST(Picture, IsTheSameByFinalGatheringForAnyNumberOfThreadsAndWhateverWasSeenBe
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   render::Renderer alone(world, options);
   EXPECT_TRUE(sameBits(picture(&alone), first));
+}
+
+/// A town, bare and in snow, in which light is baked coarsely.
+std::vector<light::World> bareAndInSnow() {
+  std::vector<light::World> states = {light::World(shared(town()))};
+  scene::SurfaceState snow;
+  snow.snow_m = 0.05;
+  states.push_back(light::weathered(states.front(), snow));
+  light::TransportOptions coarse;
+  coarse.samples = 5000;
+  coarse.bounces = 1;
+  for (light::World& state : states) state.transport = light::Transport::bake(state.geometry, coarse);
+  return states;
+}
+
+TEST(Picture, IsTheSameByFinalGatheringOfAStateAloneAndOfAllOnesCamerasAndStates) {
+  const std::vector<light::World> states = bareAndInSnow();
+  render::RenderOptions options = smallCamera(200, 150, 80.0);
+  options.final_gather = 2;
+  const auto picture = [&](render::Renderer* renderer, std::size_t state, std::size_t of_world) {
+    renderer->look(kPose);
+    return renderer->light(light::illumination(states[of_world], daylightAt(100.0, 12.0)), state).data;
+  };
+  render::Renderer all(states, options);
+  render::Renderer beside(all, options, render::Renderer::States::kAll);
+  all.look(lookingAt({-19.0, 30.0, 2.0}, {40.0, 10.0, 1.0}));
+  for (const std::size_t state : {0u, 1u}) {
+    render::Renderer alone(states[state], options);
+    const std::vector<float> expected = picture(&alone, 0, state);
+    EXPECT_TRUE(sameBits(picture(&beside, state, state), expected)) << state;
+    EXPECT_TRUE(sameBits(picture(&all, state, state), expected)) << state;
+  }
+}
+
+TEST(Picture, LooksCloserAtTheSkyOnceForAllStatesAndCameras) {
+  const std::vector<light::World> states = bareAndInSnow();
+  render::Renderer renderer(states, smallCamera(200, 150, 80.0));
+  renderer.look(kPose);
+  light::PreparedPicture picture;
+  const auto castBy = [&](light::PicturePreparer* preparer, std::size_t state) {
+    preparer->prepare({renderer.surfaces(state), states[state].visibility, {}}, &picture);
+    return preparer->placesCast();
+  };
+  light::PicturePreparer bare(states[0], 2), in_snow(states[1], 2, &bare), right(states[0], 2, &in_snow);
+  light::PicturePreparer otherwise(states[1], 1, &bare), alone(states[1], 2);
+  const std::size_t places = castBy(&bare, 0);
+  EXPECT_GT(places, 0u);
+  EXPECT_EQ(castBy(&in_snow, 1), 0u);
+  EXPECT_EQ(castBy(&right, 0), 0u);
+  EXPECT_EQ(castBy(&otherwise, 1), places);  // by fewer rays
+  EXPECT_EQ(castBy(&alone, 1), places);
 }
 
 TEST(Picture, IsTheSameWhereAnotherPreparesWhatIsSeen) {

@@ -2,11 +2,13 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -133,7 +135,7 @@ class FinalGather::Implementation {
  public:
   Implementation(std::shared_ptr<const Geometry> geometry, std::shared_ptr<const Visibility> visibility,
                  int rays_per_patch)
-      : geometry_(std::move(geometry)), visibility_(std::move(visibility)) {
+      : geometry_(std::move(geometry)), visibility_(std::move(visibility)), rays_per_patch_(rays_per_patch) {
     // The rays of each aim fill a patch evenly, and those of all together do.
     const SkyPatches all(static_cast<int>(kAims) * rays_per_patch);
     std::array<std::size_t, SkyPatches::kAbove> number{};
@@ -150,15 +152,18 @@ class FinalGather::Implementation {
       places[i] = placesIn(surfaces.tiles[i], (*outlooks)[i], camera);
     });
     const std::vector<KeptNodes::Key> wanted = keysOf(places);
-    seen_ = wanted.size();
-    try {
-      castNew(kept_.require(wanted));
-    } catch (...) {
-      kept_ = KeptNodes();  // some of them were not filled in
-      throw;
-    }
-    tbb::parallel_for(std::size_t{0}, places.size(),
-                      [&](std::size_t i) { fill(places[i], &(*outlooks)[i]); });
+    const std::lock_guard<std::mutex> lock(looking_);
+    // So that a thread which waits for others here gets no other work, which might wait for the lock.
+    tbb::this_task_arena::isolate([&] {
+      require(wanted);
+      tbb::parallel_for(std::size_t{0}, places.size(),
+                        [&](std::size_t i) { fill(places[i], &(*outlooks)[i]); });
+    });
+  }
+
+  bool finds(const Geometry& geometry, int rays_per_patch) const {
+    return geometry.shape == geometry_->shape && geometry.scene == geometry_->scene &&
+           rays_per_patch == rays_per_patch_;
   }
 
   std::size_t nodesSeen() const { return seen_; }
@@ -265,6 +270,16 @@ class FinalGather::Implementation {
     }
   }
 
+  void require(const std::vector<KeptNodes::Key>& wanted) {
+    seen_ = wanted.size();
+    try {
+      castNew(kept_.require(wanted));
+    } catch (...) {
+      kept_ = KeptNodes();  // some of them were not filled in
+      throw;
+    }
+  }
+
   void castNew(std::vector<KeptNodes::Key> fresh) {
     cast_ = fresh.size();
     rays_cast_ = 0;
@@ -313,7 +328,9 @@ class FinalGather::Implementation {
 
   std::shared_ptr<const Geometry> geometry_;
   std::shared_ptr<const Visibility> visibility_;
+  int rays_per_patch_;
   std::array<std::vector<Ray>, kAims> rays_;
+  std::mutex looking_;  ///< of all below
   KeptNodes kept_;
   std::size_t seen_ = 0, cast_ = 0;
   std::atomic<std::size_t> rays_cast_{0};
@@ -327,6 +344,9 @@ FinalGather::~FinalGather() = default;
 
 void FinalGather::look(const Surfaces& surfaces, Outlooks* outlooks) {
   implementation_->look(surfaces, outlooks);
+}
+bool FinalGather::finds(const Geometry& geometry, int rays_per_patch) const {
+  return implementation_->finds(geometry, rays_per_patch);
 }
 std::size_t FinalGather::nodesSeen() const {
   return implementation_->nodesSeen();

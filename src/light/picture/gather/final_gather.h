@@ -17,7 +17,8 @@ namespace sunlit::light {
 /// found is kept for the next poses, which see most of them again. Large triangles are left to the bake,
 /// which is as good there.
 ///
-/// What surfaces pass on still comes from the bake.
+/// What surfaces pass on still comes from the bake. What is open hangs on triangles alone, so that one serves
+/// all states of their surfaces, and all cameras.
 class FinalGather {
  public:
   /// Keeps all that it is given. `rays_per_patch`, 1 … PicturePreparer::kMostRays: of each of the sky's 175
@@ -31,8 +32,11 @@ class FinalGather {
 
   /// Sets TileOutlooks::gathered, and Outlook::gathered of leaves and of surfaces on triangles up to half as
   /// large as a square of 2 m, where Outlook::light is known. Parallel; the same bits for any number of
-  /// threads and whatever was looked at before.
+  /// threads and whatever was looked at before. One thread after another, however many call.
   void look(const Surfaces& surfaces, Outlooks* outlooks);
+
+  /// Whether one of `geometry`, with so many rays, would find the same.
+  bool finds(const Geometry& geometry, int rays_per_patch) const;
 
   /// Nodes that the last look() needed, those of them that it had to cast rays for, and these rays.
   std::size_t nodesSeen() const;
