@@ -10,7 +10,7 @@
 namespace sunlit::scene {
 namespace {
 
-using Words = std::vector<std::string>;
+using LineWords = std::vector<std::string>;
 
 /// One that begins with a blank or a # is no line of a library.
 void requireMaterialFirst(const std::string& path, const std::string& text) {
@@ -27,7 +27,7 @@ void requireMaterialFirst(const std::string& path, const std::string& text) {
 
 /// A line without -o, -s and -t, each with its one to three numbers.
 std::string withoutPlacement(const std::string& line) {
-  const Words words = wordsOfLine(line);
+  const LineWords words = wordsOfLine(line);
   if (words.empty()) return line;
   const std::string& first = words[0];
   if (first.compare(0, 4, "map_") != 0 && first != "norm" && first != "bump" && first != "disp") return line;
@@ -47,17 +47,17 @@ std::string withoutPlacement(const std::string& line) {
   return is_changed ? first + rest : line;
 }
 
-bool isHalo(const Words& words) {
+bool isHalo(const LineWords& words) {
   return words.size() > 1 && words[0] == "d" && words[1] == "-halo";
 }
 
-bool isColorOfNoRgb(const Words& words) {
+bool isColorOfNoRgb(const LineWords& words) {
   static const std::set<std::string> colors = {"Ka", "Kd", "Ks", "Ke", "Tf"};
   return words.size() > 1 && colors.count(words[0]) == 1 && (words[1] == "xyz" || words[1] == "spectral");
 }
 
 std::string readableLine(const std::string& line) {
-  const Words words = wordsOfLine(line);
+  const LineWords words = wordsOfLine(line);
   if (words.empty()) return line;
   if (words[0] == "aniso" || words[0] == "anisor" || words[0] == "decal" || isColorOfNoRgb(words)) return {};
   if (isHalo(words)) return words.size() > 2 ? "d " + words[2] : std::string();
@@ -65,7 +65,7 @@ std::string readableLine(const std::string& line) {
 }
 
 /// 0 where there is none.
-double numberIn(const Words& words, std::size_t index) {
+double numberIn(const LineWords& words, std::size_t index) {
   double number = 0.0;
   if (index < words.size()) std::istringstream(words[index]) >> number;
   return number;
@@ -73,7 +73,7 @@ double numberIn(const Words& words, std::size_t index) {
 
 /// What of a line is lost before Assimp sees it, or by Assimp; empty where that is nothing. The colour of
 /// ambient light counts for nothing, however it is told.
-std::string lossOf(const Words& words) {
+std::string lossOf(const LineWords& words) {
   if (words.size() < 2) return {};
   const std::string& first = words[0];
   if (first == "refl") return "a picture of what it mirrors: it mirrors what there is";
