@@ -14,7 +14,7 @@ namespace sunlit::sky {
 /// How a cloud layer lies over `map`.
 struct CloudPlace {
   std::shared_ptr<const CloudMap> map;
-  double base_m;            ///< above the ground
+  double base_m;            ///< above the ground's level
   Eigen::Vector2d drift_m;  ///< how far it has moved
 };
 
@@ -26,7 +26,7 @@ class BrokenCover {
   /// Where `above` falls on it.
   BrokenCover(const CloudPlace& place, const LightAbove& above, const Droplets& droplets, float albedo_below);
 
-  /// What is seen of the cloud from a place in `map`.
+  /// What is seen of the cloud from a place: x and y in `map`, z above the ground's level.
   struct Seen {
     Eigen::Array3f scattered;  ///< cd/m²
     float passed;              ///< of what is behind, straight

@@ -6,21 +6,31 @@
 #include "sky_table.h"
 
 namespace sunlit::sky {
+namespace {
+
+float heightOf(const Eigen::Vector3f& over_ground) {
+  return std::max(over_ground.z(), 0.0F);
+}
+
+Sight sight(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) {
+  return {towards, from, heightOf(from)};
+}
+
+}  // namespace
 
 Daylight::Daylight(std::shared_ptr<const SkyTable> table) : table_(std::move(table)) {}
 
 LinearRgb Daylight::skyLuminance(const Eigen::Vector3f& towards) const {
-  return LinearRgb(table_->luminance({towards, from_, height_m_}));
+  return LinearRgb(table_->luminance(sight(towards, from_)));
 }
 
 LinearRgb Daylight::skyLuminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& place) const {
-  return LinearRgb(table_->luminance({towards, place, heightOf(place)}));
+  return LinearRgb(table_->luminance(sight(towards, aboveGround(place))));
 }
 
 Daylight Daylight::seenFrom(const Eigen::Vector3f& place) const {
   Daylight there = *this;
-  there.from_ = place;
-  there.height_m_ = heightOf(place);
+  there.from_ = aboveGround(place);
   return there;
 }
 
@@ -30,8 +40,8 @@ Daylight Daylight::overGround(float level_m) const {
   return there;
 }
 
-float Daylight::heightOf(const Eigen::Vector3f& place) const {
-  return std::max(place.z() - ground_m_, 0.0F);
+Eigen::Vector3f Daylight::aboveGround(const Eigen::Vector3f& place) const {
+  return {place.x(), place.y(), place.z() - ground_m_};
 }
 
 Daylight Daylight::withoutAir() const {
@@ -43,13 +53,13 @@ Daylight Daylight::withoutAir() const {
 float Daylight::throughCloud(const DiscLight& disc, const Eigen::Vector3f& place) const {
   if (!table_->weather) return 1.0F;
   const Eigen::Vector3f towards = disc.towards.vector().cast<float>();
-  return table_->weather->passedThere({towards, place, heightOf(place)});
+  return table_->weather->passedThere(sight(towards, aboveGround(place)));
 }
 
 float Daylight::passedHere(const Eigen::Vector3f& towards) const {
   if (!table_->weather) return 1.0F;
-  const Sight sight{towards, from_, height_m_};
-  return table_->weather->passedFog(sight) * table_->weather->passedThere(sight);
+  const Sight here = sight(towards, from_);
+  return table_->weather->passedFog(here) * table_->weather->passedThere(here);
 }
 
 Rain Daylight::rain() const {
@@ -57,7 +67,7 @@ Rain Daylight::rain() const {
 }
 
 Fog Daylight::fog() const {
-  return table_->weather && has_air_ ? table_->weather->fog(height_m_) : Fog();
+  return table_->weather && has_air_ ? table_->weather->fog(heightOf(from_)) : Fog();
 }
 
 bool Daylight::hasBrokenCloud() const {
@@ -100,7 +110,7 @@ const std::vector<PointLight>& Daylight::stars() const {
 
 AirColumn Daylight::airOver(const Eigen::Vector3f& towards, float distance_m) const {
   if (!has_air_) return {Eigen::Array3f::Ones(), Eigen::Array3f::Zero()};
-  return table_->airOver({towards, from_, height_m_}, distance_m);
+  return table_->airOver(sight(towards, from_), distance_m);
 }
 
 LinearRgb Daylight::groundIlluminance() const {

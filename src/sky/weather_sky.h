@@ -29,11 +29,11 @@ struct WeatherTables {
 /// std::invalid_argument where that alone lets one see no farther.
 double fogPerMetre(double visibility_m, double haze_per_m);
 
-/// A line of sight: towards a unit vector, from a place in `map`.
+/// A line of sight towards a unit vector.
 struct Sight {
   const Eigen::Vector3f& towards;
-  const Eigen::Vector3f& from;
-  float height_m;  ///< above the ground that fog lies on, ≥ 0
+  const Eigen::Vector3f& from;  ///< x and y in `map`, z above the ground's level: clouds lie over it
+  float height_m;               ///< above the ground that fog lies on, ≥ 0
 };
 
 /// Cloud above all air that counts, and fog from the ground up, one after another: each throws light back at

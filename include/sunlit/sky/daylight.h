@@ -63,12 +63,12 @@ class Daylight {
  public:
   explicit Daylight(std::shared_ptr<const SkyTable> table);
 
-  /// The same light, but that clouds and fog are seen from a place in `map`; else clouds are seen from its
-  /// origin, fog from the ground. Of fog an eye has above it what lies between its height and the layer's
+  /// The same light, but that clouds and fog are seen from a place in `map`; else they are seen from the
+  /// ground's level at x = y = 0. Of fog an eye has above it what lies between its height and the layer's
   /// top, or looks down on it; below the ground's level it has all, as on the ground.
   Daylight seenFrom(const Eigen::Vector3f& place) const;
-  /// The same light over ground at this height in `map`, from which fog reaches up; else it is at 0. Before
-  /// seenFrom().
+  /// The same light over ground at this height in `map`, from which fog reaches up and above which the base
+  /// of broken cloud lies; else it is at 0. Before seenFrom().
   Daylight overGround(float level_m) const;
   /// The same light, but that no air lies between the eye and what it sees: for views from far above.
   Daylight withoutAir() const;
@@ -108,13 +108,14 @@ class Daylight {
   Fog fog() const;
 
  private:
-  float heightOf(const Eigen::Vector3f& place) const;
+  /// x and y in `map`, z above the ground's level.
+  Eigen::Vector3f aboveGround(const Eigen::Vector3f& place) const;
   /// Of light from above the fog.
   float passedHere(const Eigen::Vector3f& towards) const;
 
   std::shared_ptr<const SkyTable> table_;
-  Eigen::Vector3f from_ = Eigen::Vector3f::Zero();
-  float ground_m_ = 0.0F, height_m_ = 0.0F;  ///< z in `map`; of from_ above that, ≥ 0
+  Eigen::Vector3f from_ = Eigen::Vector3f::Zero();  ///< as aboveGround() has places
+  float ground_m_ = 0.0F;                           ///< z in `map`
   bool has_air_ = true;
 };
 

@@ -139,6 +139,41 @@ TEST(StandardOvercast, CastsNoShadowOfAPost) {
   }
 }
 
+TEST(BrokenCloud, IsAsHighOverAWorldThatLiesHigh) {
+  sky::Weather weather;
+  weather.cover_oktas = 4.0;
+  const sky::Daylight day = under(weather);
+  constexpr double kSquare_m = 400.0;
+  const auto pictureAt = [&](double level_m) {
+    scene::Scene scene;
+    const int grey = addMaterial(&scene, Eigen::Array3f::Constant(0.3f));
+    const auto corner_m = static_cast<float>(0.5 * kSquare_m), side_m = static_cast<float>(kSquare_m);
+    addPatch(&scene, grey, {-corner_m, -corner_m, static_cast<float>(level_m)}, {side_m, 0.0f, 0.0f},
+             {0.0f, side_m, 0.0f});
+    light::World world(shared(scene));
+    light::TransportOptions options;
+    options.samples = 1000;
+    world.transport = light::Transport::bake(world.geometry, options);
+    // Sky, the cloud's shadows on the ground, and light of the sky.
+    const Eigen::Vector3d eye(0.0, 0.0, level_m + 40.0);
+    const View view(world, eye, eye + Eigen::Vector3d(10.0, 3.0, -1.0), smallCamera(64, 48, 60.0));
+    return view.picture(light::illumination(world, day));
+  };
+  const image::LinearImage low = pictureAt(0.0), high = pictureAt(1600.0);  // above the cloud's base
+  double least = 1e9, most = 0.0;
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const float expected = LinearRgb(test::at(low, x, y)).luminance();
+      EXPECT_NEAR(LinearRgb(test::at(high, x, y)).luminance(), expected, 0.01f * expected) << x << ' ' << y;
+      if (y < 40) continue;
+      least = std::min(least, static_cast<double>(expected));
+      most = std::max(most, static_cast<double>(expected));
+    }
+  }
+  EXPECT_GT(most, 0.0);
+  EXPECT_LT(least, most);
+}
+
 TEST(Fog, IsAboveMirrorsOnTheGroundThatAreSeenFromAboveIt) {
   scene::Scene scene;
   const int metal = addMaterial(&scene, {0.9f, 0.9f, 0.9f});

@@ -210,6 +210,43 @@ TEST(CloudMap, LetsThroughEachCellWhatItsDepthLeaves) {
   }
 }
 
+TEST(BrokenCloud, IsAsHighOverGroundAtAnyHeightInTheMap) {
+  constexpr double kSun_deg = 50.0;
+  constexpr float kLevel_m = 1600.0F;  // above the base
+  const Daylight low = under(kSun_deg, covered(4.0)), high = low.overGround(kLevel_m);
+  const Eigen::Vector3f rise(0.0F, 0.0F, kLevel_m);
+  for (const double elevation_deg : {0.0, 10.0, 50.0, 80.0}) {
+    const Eigen::Vector3f way = towards(elevation_deg);
+    EXPECT_TRUE((high.skyLuminance(way).value == low.skyLuminance(way).value).all());  // of no place
+    for (int i = 0; i < 100; ++i) {
+      // Below the ground's level, on it and above.
+      const Eigen::Vector3f place(static_cast<float>(i) * 170.0F, static_cast<float>(i) * 53.0F,
+                                  static_cast<float>(i - 20));
+      EXPECT_TRUE((high.skyLuminance(way, place + rise).value == low.skyLuminance(way, place).value).all());
+      const Daylight there = high.seenFrom(place + rise), here = low.seenFrom(place);
+      EXPECT_TRUE((there.skyLuminance(way).value == here.skyLuminance(way).value).all());
+      EXPECT_TRUE((there.sunSeen().illuminance.value == here.sunSeen().illuminance.value).all());
+      EXPECT_EQ(high.throughCloud(high.sun(), place + rise), low.throughCloud(low.sun(), place));
+    }
+  }
+}
+
+TEST(BrokenCloud, HasItsShadowsFurtherAsideInAValley) {
+  // The cloud is 2000 m above the valley's floor, not 1500: a place 500 m below the level, by that much
+  // further along the beam, lies in the same light.
+  constexpr double kSun_deg = 45.0;
+  const Daylight day = under(kSun_deg, covered(4.0));
+  const Eigen::Vector3f down = -500.0F / towards(kSun_deg).z() * towards(kSun_deg);
+  int lit = 0, shaded = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3f place(static_cast<float>(i) * 170.0F, static_cast<float>(i) * 53.0F, 0.0F);
+    const float above = day.throughCloud(day.sun(), place);
+    EXPECT_NEAR(day.throughCloud(day.sun(), place + down), above, 0.35F) << i;  // the disc's blur is wider
+    (above > 1.0F ? lit : shaded) += 1;
+  }
+  EXPECT_GT(std::min(lit, shaded), 40);
+}
+
 TEST(SilverLining, AThinEdgeBesideAHiddenSunIsBrighterThanAThickMiddle) {
   constexpr double kSun_deg = 50.0, kBeside_deg = 2.0;
   const Weather weather = covered(4.0);
