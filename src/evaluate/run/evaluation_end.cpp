@@ -16,10 +16,11 @@ constexpr std::chrono::milliseconds kAskedEach{100};  // whether a run is broken
 }  // namespace
 
 Outcome Evaluation::State::finish(const StopToken& broken_off) {
+  const bool is_at_once = broken_off.isStopped();  // which may ask for counts()
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_finished_ = true;
-    is_broken_off_ = broken_off.isStopped();
+    is_broken_off_ = is_at_once;
     for (const std::int64_t stamp : sets_.openStamps()) close(stamp, poses_.of(stamp), Reason::kEnd);
   }
   waitForWork(broken_off);

@@ -177,9 +177,9 @@ class Evaluation {
   /// isComplete().
   void waitForRoom(std::size_t queued_poses) const;
   /// Accounts for everything that still waits, writes all files and stops. Once. What is whole is compared
-  /// first, until `broken_off`, which this thread asks ten times a second, says so: then it is given up,
-  /// counted and named, as is what is being compared. No matter how long a detector still takes, the files
-  /// are written at once; the destructor waits for it.
+  /// first, until `broken_off` says so: then it is given up, counted and named, as is what is being compared.
+  /// No matter how long a detector still takes, the files are written at once; the destructor waits for it.
+  /// This thread asks `broken_off` ten times a second, and under no lock: it may call counts().
   Outcome finish(const StopToken& broken_off = {});
   /// Looks for the queries in the map, after finish(), and writes localisation.csv and
   /// localisation_summary.csv. Nothing where options().localisation has no map, or where they are there
