@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sunlit/image/exposure_program.h"
+
 namespace sunlit::image {
 
 void validate(const ShutterOptions& options) {
@@ -10,8 +12,7 @@ void validate(const ShutterOptions& options) {
 }
 
 double exposureTime_s(double ev100) {
-  constexpr double kStop = 2.8, kLongest_s = 1.0 / 30.0;
-  return std::min(kStop * kStop / std::exp2(ev100), kLongest_s);
+  return std::min(kUsualStop * kUsualStop / std::exp2(ev100), kLongest_s);
 }
 
 double smearTime_s(const ShutterOptions& options, double ev100) {

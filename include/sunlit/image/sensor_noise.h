@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/image/exposure_program.h"
 #include "sunlit/image/images.h"
 #include "sunlit/image/picture_name.h"
 #include "sunlit/quantity/field.h"
@@ -14,13 +15,13 @@ namespace sunlit::image {
 
 /// Electrons are counted per pixel and channel, as by a camera with a sensor for each colour. Down to
 /// `gain_ev100` the camera exposes so long that saturation fills the well, at its base sensitivity; in less
-/// light its shutter and aperture are at their end, and the gain (ISO) rises: a picture that is white at
-/// EV100 then holds full_well_e · 2^(EV100 − gain_ev100) electrons where it is white.
+/// light its shutter and aperture are at their end (exposure_program.h), and the gain (ISO) rises: a picture
+/// that is white at EV100 then holds full_well_e · 2^(EV100 − gain_ev100) electrons where it is white.
 struct NoiseOptions {
   bool enabled = false;
   double full_well_e = 20000.0;
   double read_e = 3.0;
-  double gain_ev100 = 5.9;  ///< f/1.4 and 1/30 s: log2(1.4² · 30)
+  double gain_ev100 = leastFullEv100();  ///< 5.9
   int seed = 0;
 };
 

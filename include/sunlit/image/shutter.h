@@ -35,7 +35,8 @@ inline std::vector<Field> fieldsOf(ShutterOptions& options) {
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const ShutterOptions& options);
 
-/// Time that a picture of this EV100 is exposed for: f/2.8 at ISO 100, 1/30 s at most.
+/// Time that a picture of this EV100 is exposed for (exposure_program.h): by f/2.8 at ISO 100, 1/30 s at
+/// most.
 double exposureTime_s(double ev100);
 /// That smears what moves; 0: nothing does.
 double smearTime_s(const ShutterOptions& options, double ev100);
