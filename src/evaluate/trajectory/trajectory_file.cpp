@@ -128,7 +128,9 @@ class Reader {
   /// By the first line; all others are of the same.
   void chooseForm(const Fields& fields, bool has_commas) {
     if (has_commas && fields.size() == kEurocColumns) form_ = &kEuroc;
-    const auto fits = [&](const Form& form) { return scaledWhole(fields[0], form.digits).has_value(); };
+    const auto fits = [&](const Form& form) {
+      return !fields.empty() && scaledWhole(fields[0], form.digits).has_value();
+    };
     if (form_ == &kTum && !fits(kTum) && fits(kTumOfNanoseconds)) form_ = &kTumOfNanoseconds;
     columns_ = form_ == &kEuroc ? std::max(fields.size(), kLeastColumns) : kLeastColumns;
   }

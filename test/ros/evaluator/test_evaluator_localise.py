@@ -206,7 +206,7 @@ class TestLocalise(unittest.TestCase):
         done = self.evaluate_bags('--out', self.path('two'), '--map', self.path('first.bag:noon'), '--query',
                                   self.path('first.bag:dusk'), '--query', self.path('later.bag:dusk'), '--map-every', '1')
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertRegex(done.stdout, 'are of two drives, and were paired by place: %d pairs, 2 queries without one' % (POSES - 2))
+        self.assertRegex(done.stdout, 'have no common numbers of poses, and were paired by place: %d pairs, 2 queries without one' % (POSES - 2))
         hours = [row for row in rows(self.path('two'), 'comparisons.csv') if row['family'] == 'hours']
         self.assertEqual(len(hours), 4 * 2)
         for row in hours:

@@ -112,7 +112,8 @@ class RenderRobot(RefusalTest):
         self.assertEqual(ahead[0].data, plain[0].data)
         for name, rpy, path in (("back", "0 0 3.14159265359", {}), ("aside", "0 0 0.5", {"yaw": 160.0})):
             reader = Reader(["a"], node="/" + name)
-            with RenderNode(name, self.tree(path=dict(path, count=1), robot={"file": self.with_camera(rpy)})) as node:
+            tree = self.tree(path=dict(path, count=1), robot={"file": self.with_camera(rpy)}, subscribers={"images": 1, "poses": 1})
+            with RenderNode(name, tree) as node:
                 pose, = reader.wait("/camera/pose", 1)
                 image, = reader.wait("/a/camera/image_raw", 1)
                 status, said = node.end()

@@ -125,6 +125,10 @@ TEST_F(TrajectoryFile, NamesTheLineOfAnotherForm) {
             ":2: has 3 columns, but must have 8: timestamp x y z qw qx qy qz … (ns, m)");
 }
 
+TEST_F(TrajectoryFile, ALineOfNothingThatIsSeenIsAnErrorToo) {
+  EXPECT_EQ(errorOf("\v"), ":1: has 0 columns, but must have 8: timestamp tx ty tz qx qy qz qw (s, m)");
+}
+
 TEST_F(TrajectoryFile, NamesWhatIsNoNumber) {
   EXPECT_EQ(errorOf("0 0 0 0 0 0 0 1\n1 0 nan 0 0 0 0 1\n"),
             ":2: ty is \"nan\", but must be from -1000000000 to 1000000000");
