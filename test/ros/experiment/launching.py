@@ -72,7 +72,8 @@ class Launched:
         self.environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % free_port(),
                                 ROS_HOSTNAME="localhost", **{key: value})
         self.environment.update(surroundings or {})
-        self.log = tempfile.TemporaryFile(mode="a+")  # a: what is read here does not move where they write
+        # a: what is read here does not move where they write. Letters of two that write at once may lie within each other.
+        self.log = tempfile.TemporaryFile(mode="a+", encoding="utf-8", errors="replace")
         port = self.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
         command = ["roslaunch", "-p", port] + ([launch_file] if "/" in launch_file else ["sunlit", launch_file])
         command += ["%s:=%s" % (name, value) for name, value in arguments.items()]
