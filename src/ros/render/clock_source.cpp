@@ -18,11 +18,15 @@ namespace {
 constexpr std::chrono::milliseconds kPeriod(100);
 const char* const kSimTime = "/use_sim_time";
 
-/// A node other than this one that publishes `topic`; empty if there is none.
-std::string otherPublisher(const std::string& topic) {
+/// Of a master that does not answer: whether it is waited for.
+enum class Silence { kIsWaitedFor, kIsNoAnswer };
+
+/// A node other than this one that publishes `topic`; empty if there is none, or none is told of.
+std::string otherPublisher(const std::string& topic, Silence silence) {
   XmlRpc::XmlRpcValue request, response, state;
   request[0] = ros::this_node::getName();
-  if (!ros::master::execute("getSystemState", request, response, state, true)) return std::string();
+  if (!ros::master::execute("getSystemState", request, response, state, silence == Silence::kIsWaitedFor))
+    return std::string();
   for (int i = 0; i < state[0].size(); ++i) {
     if (static_cast<std::string>(state[0][i][0]) != topic) continue;
     for (int k = 0; k < state[0][i][1].size(); ++k) {
@@ -36,7 +40,8 @@ std::string otherPublisher(const std::string& topic) {
 }  // namespace
 
 void takeBackSimTime() {
-  if (otherPublisher(topics::kClock).empty()) ros::param::del(kSimTime);
+  // At an end, which comes also where the master has gone.
+  if (otherPublisher(topics::kClock, Silence::kIsNoAnswer).empty()) ros::param::del(kSimTime);
 }
 
 ClockSource::ClockSource(ros::NodeHandle node, const ros::Time& time) : time_(time) {
@@ -45,7 +50,7 @@ ClockSource::ClockSource(ros::NodeHandle node, const ros::Time& time) : time_(ti
         std::string("parameter ~publish_clock is true, but ") + kSimTime +
         " is not: set it before any node starts, or all of them go by the wall clock");
   }
-  const std::string other = otherPublisher(topics::kClock);
+  const std::string other = otherPublisher(topics::kClock, Silence::kIsWaitedFor);
   if (!other.empty())
     throw std::invalid_argument("parameter ~publish_clock is true, but " + other +
                                 " publishes /clock already");
