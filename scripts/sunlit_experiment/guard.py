@@ -11,10 +11,11 @@ import sys
 import time
 
 from sunlit_experiment import display
-from sunlit_experiment.launch import Launch
+from sunlit_experiment.launch import GONE, Launch
 
 LOOK_EVERY_S = 1.0
 PATIENCE_S = 5.0  # with a node whose roslaunch has gone
+OF_ROSLAUNCH = "of_roslaunch"  # said to the guard, which may start too late to see it
 IN_ORDER = b"."  # what the node says before it leaves
 
 
@@ -27,8 +28,9 @@ class Guard:
 
     def _start(self):
         scripts = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
-        self.process = subprocess.Popen([sys.executable, "-m", "sunlit_experiment.guard", str(self.launch.pid),
-                                         self.launch.log_folder], cwd=scripts, stdin=subprocess.PIPE, start_new_session=True)
+        words = [str(self.launch.pid), self.launch.log_folder] + [OF_ROSLAUNCH] * self.launch.may_end_children
+        self.process = subprocess.Popen([sys.executable, "-m", "sunlit_experiment.guard"] + words, cwd=scripts,
+                                        stdin=subprocess.PIPE, start_new_session=True)
 
     def check(self):
         """Starts it again, should it have been killed."""
@@ -57,6 +59,8 @@ def reason_to_act(launch):
 
 def main():
     launch = Launch(int(sys.argv[1]), sys.argv[2])
+    if OF_ROSLAUNCH in sys.argv[3:] and not launch.may_end_children:
+        launch = Launch(GONE, sys.argv[2])
     reason = reason_to_act(launch)
     if reason:
         display.restore(sys.stdout)

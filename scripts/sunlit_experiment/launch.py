@@ -20,6 +20,7 @@ from sunlit_experiment import display
 NO_ANSWER = (OSError, http.client.HTTPException, xml.parsers.expat.ExpatError)  # the last: it ended in mid-answer
 GRACE_S = 20.0  # a process that has not ended so long after SIGINT is killed
 BEGIN_S = 60.0  # roslaunch has started its nodes well within it
+LOOKS, LOOK_AGAIN_S = 100, 0.01  # at a parent: one that may not be looked at is none of our business
 GONE = 0  # instead of the process id of a roslaunch that went before anybody looked
 
 
@@ -51,6 +52,17 @@ def words_of(process):
 
 def is_roslaunch(process):
     return any(os.path.basename(word) in ("roslaunch", "roscore") for word in words_of(process))
+
+
+def launch_of_parent(log_folder):
+    """What started us. Of a parent that ends while we look nobody can tell any more what it was: we are inherited next."""
+    for _ in range(LOOKS):
+        launch = Launch(pid_of_parent(log_folder), log_folder)
+        is_ending = launch.process is None or not words_of(launch.process)
+        if launch.pid == GONE or (launch.pid == os.getppid() and not is_ending):
+            break
+        time.sleep(LOOK_AGAIN_S)
+    return launch
 
 
 def pid_of_parent(log_folder):

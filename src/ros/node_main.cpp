@@ -40,8 +40,9 @@ bool isOfRoslaunch(int argc, char** argv) {
   return false;
 }
 
-/// While it lives, the end of the process that started this one ends it: who waits for a master that was
-/// killed together with its roslaunch would wait for ever, and keep what it holds.
+/// While it lives, the end of the process that started this one ends it, as Ctrl-C does: a roslaunch that was
+/// killed, or whose master was, leaves behind what it had started, which would keep what it holds, and wait
+/// for ever for that master.
 class EndsWithItsParent {
  public:
   EndsWithItsParent() : parent_(getppid()), watch_([this] { watch(); }) {}
@@ -56,21 +57,33 @@ class EndsWithItsParent {
     watch_.join();
   }
 
+  /// From here on it ends in order.
+  void haveMaster() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    has_master_ = true;
+  }
+
  private:
   void watch() {
     constexpr std::chrono::milliseconds kPeriod(200);
+    constexpr std::chrono::seconds kGrace(20);  // after which roslaunch would have killed it, too
+    const auto is_done = [this] { return done_; };
     std::unique_lock<std::mutex> lock(mutex_);
-    while (!changed_.wait_for(lock, kPeriod, [this] { return done_; })) {
-      if (getppid() == parent_) continue;
-      std::fputs("roslaunch ended before a master could be reached: this node ends, too\n", stderr);
-      std::_Exit(1);
+    while (getppid() == parent_)
+      if (changed_.wait_for(lock, kPeriod, is_done)) return;
+    std::fputs("roslaunch has gone: this node ends, too\n", stderr);
+    if (has_master_) {
+      kill(getpid(), SIGINT);
+      if (changed_.wait_for(lock, kGrace, is_done)) return;
     }
+    std::_Exit(1);
   }
 
   const pid_t parent_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool done_ = false;
+  bool has_master_ = false;
   std::thread watch_;
 };
 
@@ -86,8 +99,8 @@ int refuseWord(const std::string& word, const std::string& name) {
 }  // namespace
 
 int runNode(int argc, char** argv, const std::string& name, const std::function<int()>& node) {
-  std::optional<EndsWithItsParent> alone;
-  if (isOfRoslaunch(argc, argv)) alone.emplace();
+  std::optional<EndsWithItsParent> of_roslaunch;
+  if (isOfRoslaunch(argc, argv)) of_roslaunch.emplace();
   ros::init(argc, argv, name);
   if (argc > 1) return refuseWord(argv[1], name);  // ROS has taken what it knows
   // roscpp and its console end with the last handle: without this one, an exception that destroys the node's
@@ -95,7 +108,7 @@ int runNode(int argc, char** argv, const std::string& name, const std::function<
   std::signal(SIGTERM, onTermination);
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond ulimit -f is an error with a name, no silent end
   const ros::NodeHandle alive;    // waits for a master
-  alone.reset();
+  if (of_roslaunch) of_roslaunch->haveMaster();
   try {
     return node();
   } catch (const std::exception& error) {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a node does whose master never comes: it waits, unless roslaunch, which started it, is gone."""
+"""What a node does whose master does not come, or goes: it waits, unless roslaunch, which started it, is gone."""
 import os
 import select
 import signal
@@ -7,8 +7,10 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
+import rosgraph
 import rosunit
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
@@ -25,23 +27,49 @@ def free_port():
         return probe.getsockname()[1]
 
 
-class Orphan:
-    """A node that waits for a master, its parent killed."""
+class Master:
+    """Of a free port, once it is started."""
 
-    def __init__(self, node, *words):
-        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % free_port(),
-                           ROS_LOG_DIR=tempfile.gettempdir())
+    def __init__(self):
+        self.port = free_port()
+        self.uri = "http://localhost:%d" % self.port
+        self._process = None
+
+    def start(self):
+        self._process = subprocess.Popen(["rosmaster", "--core", "-p", str(self.port)], stdout=subprocess.DEVNULL)
+
+    def knows(self, node):
+        try:
+            return bool(rosgraph.Master("/test", self.uri).lookupNode(node))
+        except (OSError, rosgraph.MasterException):
+            return False
+
+    def kill(self):
+        if self._process:
+            self._process.kill()
+            self._process.wait()
+
+
+class Child:
+    """A node, started by a process that can be killed."""
+
+    def __init__(self, master, node, *words):
+        environment = dict(os.environ, ROS_MASTER_URI=master.uri, ROS_LOG_DIR=tempfile.gettempdir())
         self._said, writes = os.pipe()
-        parent = subprocess.Popen(["sh", "-c", '"$@" & echo $!; wait', "sh", located(node)] + list(words),
-                                  env=environment, stdout=subprocess.PIPE, stderr=writes, text=True)
+        self._parent = subprocess.Popen(["sh", "-c", '"$@" & echo $!; wait', "sh", located(node)] + list(words),
+                                        env=environment, stdout=subprocess.PIPE, stderr=writes, text=True)
         os.close(writes)
-        self._node = int(parent.stdout.readline())
+        self._node = int(self._parent.stdout.readline())
         self._heard = b""
-        while b"Failed to contact master" not in self._heard:
+
+    def await_words(self, words):
+        while words.encode() not in self._heard:
             self._heard += self._read(LONG_s) or b""
-        parent.kill()
-        parent.wait()
-        parent.stdout.close()
+
+    def orphan(self):
+        self._parent.kill()
+        self._parent.wait()
+        self._parent.stdout.close()
 
     def _read(self, seconds):
         """What it says next; empty: it has ended; None: nothing so long."""
@@ -68,21 +96,53 @@ class Orphan:
 
 class NodeWithoutMaster(unittest.TestCase):
 
-    def orphan(self, *words):
-        orphan = Orphan(*words)
-        self.addCleanup(orphan.close)
-        return orphan
+    def setUp(self):
+        self.master = Master()
+        self.addCleanup(self.master.kill)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.as_roslaunch_does = ("__name:=alone", "__log:=%s/alone.log" % folder.name)
+
+    def child(self, *words):
+        child = Child(self.master, *words)
+        self.addCleanup(child.close)
+        return child
+
+    def registered(self, node):
+        self.master.start()
+        child = self.child(node, *self.as_roslaunch_does)
+        deadline = time.monotonic() + LONG_s
+        while not self.master.knows("/alone"):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.02)
+        return child
 
     def test_of_roslaunch_ends_with_it(self):
         for node in NODES:
-            with self.subTest(node), tempfile.TemporaryDirectory() as folder:
-                orphan = self.orphan(node, "__name:=alone", "__log:=%s/alone.log" % folder)
-                self.assertTrue(orphan.ends_within(LONG_s), orphan.heard())
-                self.assertIn("roslaunch ended before a master could be reached", orphan.heard())
+            with self.subTest(node):
+                child = self.child(node, *self.as_roslaunch_does)
+                child.await_words("Failed to contact master")
+                child.orphan()
+                self.assertTrue(child.ends_within(LONG_s), child.heard())
+                self.assertIn("roslaunch has gone", child.heard())
 
     def test_of_a_shell_waits_on(self):
-        orphan = self.orphan("evaluator_node")
-        self.assertFalse(orphan.ends_within(MEANWHILE_s), orphan.heard())
+        child = self.child("evaluator_node")
+        child.await_words("Failed to contact master")
+        child.orphan()
+        self.assertFalse(child.ends_within(MEANWHILE_s), child.heard())
+
+    def test_of_roslaunch_ends_with_it_though_there_is_a_master(self):
+        child = self.registered("sun_position_node")
+        child.orphan()
+        self.assertTrue(child.ends_within(LONG_s), child.heard())
+
+    def test_of_roslaunch_ends_with_it_though_there_was_a_master(self):
+        """As where the master is killed while roslaunch starts nodes: it ends at once, and leaves them."""
+        child = self.registered("sun_position_node")
+        self.master.kill()
+        child.orphan()
+        self.assertTrue(child.ends_within(LONG_s), child.heard())
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import fcntl
 import math
 import os
 import pty
+import signal
 import struct
 import subprocess
 import sys
@@ -271,19 +272,33 @@ class OnATerminal(unittest.TestCase):
 class Watched(unittest.TestCase):
 
     def test_a_guard_may_be_dismissed_again(self):
-        guard = Guard(SimpleNamespace(pid=os.getpid(), log_folder="nowhere"))
+        guard = Guard(SimpleNamespace(pid=os.getpid(), log_folder="nowhere", may_end_children=False))
         guard.dismiss()
         guard.dismiss()
         self.assertEqual(guard.process.returncode, 0)
+
+    def test_a_guard_ends_what_a_roslaunch_started_that_went_before_it_looked(self):
+        with tempfile.TemporaryDirectory() as folder:
+            waits = [sys.executable, "-c", "import signal; signal.signal(signal.SIGINT, signal.SIG_DFL); print(flush=True); signal.pause()"]
+            left = subprocess.Popen(waits + ["__log:=%s/it.log" % folder], preexec_fn=os.setpgrp, stdout=subprocess.PIPE)
+            self.addCleanup(left.kill)
+            left.stdout.readline()
+            left.stdout.close()
+            gone = subprocess.Popen(["true"])
+            gone.wait()
+            guard = Guard(SimpleNamespace(pid=gone.pid, log_folder=folder, may_end_children=True))
+            self.assertEqual(left.wait(50), -signal.SIGINT)
+            self.assertEqual(guard.process.wait(50), 1)
+            guard.process.stdin.close()
 
     def test_what_a_roslaunch_started_ends_where_it_had_gone_before_the_node_looked(self):
         """As when its master is killed while it starts nodes: it goes at once, and leaves those that it started."""
         with tempfile.TemporaryDirectory() as folder:
             other = subprocess.Popen(["sleep", "60"], preexec_fn=os.setpgrp)  # logs elsewhere
             left = "import signal, time; signal.signal(signal.SIGINT, signal.SIG_DFL); print('up', flush=True); time.sleep(60)"
-            node = ("import os, time; from sunlit_experiment.launch import Launch, pid_of_parent\n"
+            node = ("import os, time; from sunlit_experiment.launch import launch_of_parent\n"
                     "while not os.path.exists('%s/gone'): time.sleep(0.01)\n"
-                    "Launch(pid_of_parent('%s'), '%s').break_off('interrupted')" % (folder, folder, folder))
+                    "launch_of_parent('%s').break_off('interrupted')" % (folder, folder))
             launcher = os.path.join(folder, "roslaunch")
             with open(launcher, "w") as file:
                 file.write("import os, subprocess, sys\nfor word in sys.argv[1:]:\n"
