@@ -192,7 +192,7 @@ std::vector<AtlasCondition> conditionsOf(const Words& words, const astronomy::Ci
   std::set<std::string> names;
   for (const astronomy::CivilDate& date : dates) {
     for (const TimeOfDay& time : timesOf(words)) {
-      const std::string of_day = dates.size() > 1 ? textOf(date) + "_" : "";
+      const std::string of_day = dates.size() > 1 ? textOfDate(date) + "_" : "";
       conditions.push_back({date, time, of_day + time.name()});
       if (!names.insert(conditions.back().name).second)
         throw std::invalid_argument("the light " + conditions.back().name + " is asked for twice");

@@ -26,7 +26,7 @@ astronomy::CivilDate dateOf(const std::string& option, const std::string& text, 
   return date;
 }
 
-std::string textOf(const astronomy::CivilDate& date) {
+std::string textOfDate(const astronomy::CivilDate& date) {
   char text[32];
   std::snprintf(text, sizeof text, "%04d-%02d-%02d", date.year, date.month, date.day);
   return text;
@@ -87,7 +87,7 @@ void requireWeather(const studio::CommandLine& line, const sky::Weather& weather
 void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   line->group("Place, day and air");
   line->add("--site LAT,LON[,ELEVATION]", "", fieldsOf(options->site));
-  line->add("--date YYYY-MM-DD", {"date", OwnForm{textOf(options->date)}, "", {}, "as the time zone has it"})
+  line->add("--date YYYY-MM-DD", {"date", OwnForm{textOfDate(options->date)}, "", {}, "as the time zone has it"})
       .then([options](const std::string& option, const std::string& value) {
         options->date = dateOf(option, value, options->date.timezone);
       });

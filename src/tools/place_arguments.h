@@ -27,7 +27,7 @@ sky::AtmosphereOptions airOf(const PlaceOptions& place);
 /// "2024-07-01". Throws std::invalid_argument naming `option` for a day that there is not.
 astronomy::CivilDate dateOf(const std::string& option, const std::string& text, double timezone);
 /// As a person would type it.
-std::string textOf(const astronomy::CivilDate& date);
+std::string textOfDate(const astronomy::CivilDate& date);
 
 /// --cover, --visibility and the other rows of the weather, --wet, --snow and those of what it leaves.
 void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::SurfaceState* surfaces);

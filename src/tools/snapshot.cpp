@@ -30,8 +30,7 @@ std::string placeOf(const light::Geometry& geometry) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& position : geometry.positions) box.extend(position);
   const auto corner = [](const Eigen::Vector3f& point) {
-    return sunlit::textOf(point.x(), 4) + "," + sunlit::textOf(point.y(), 4) + "," +
-           sunlit::textOf(point.z(), 4);
+    return textOf(point.x(), 4) + "," + textOf(point.y(), 4) + "," + textOf(point.z(), 4);
   };
   return "which reaches from " + corner(box.min()) + " to " + corner(box.max()) +
          " m; surfaces with one side do not show the other";

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Functions in unnamed namespaces of one library differ by name or parameters: its files are compiled several at a time, and so are
-those of test programs."""
+those of test programs. For the same reason no function of a nested namespace has the name of one of sunlit, which it would hide in
+files that never saw it."""
 import collections
 import pathlib
 import re
@@ -20,6 +21,10 @@ UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.MULTILINE | r
 CONSTANTS = re.compile(r"^(?:inline |static )?const(?:expr)? [^;]*", re.MULTILINE)
 CONSTANT = re.compile(r"\b(k[A-Z]\w*)(?:\[\w*\])? ?(?:=(?!=)|\{)")
 TYPE = re.compile(r"^(?:struct|class|enum class|enum|using) (\w+)(?! *\()\b", re.MULTILINE)
+DECLARATION = re.compile(r"^(?:template <[^>]*> )?(?:\[\[\w+\]\] )?(?:(?:inline|constexpr|static|const) )*[A-Za-z][\w:]*(?:<[^()\n]*>)?[&* ]+(\w+)\(",
+                         re.MULTILINE)
+NAMESPACE = re.compile(r"^namespace sunlit(?:::([\w:]+))? \{$", re.MULTILINE)
+BY_ARGUMENT = {"fieldsOf"}  # each stands with the type that it takes, whose namespace is looked into
 PROGRAM = re.compile(r"sunlit_tests\(([a-z]+) (\w+)\s+FILES ([a-z0-9_ ]+?)\s*(?:LIBRARIES [^)]*)?\)")
 OF_THE_PROCESS = re.compile(r"\b(?:setenv|unsetenv|setrlimit|fork|chdir|current_path|popen)\(")
 
@@ -55,6 +60,12 @@ def named(text):
         name for block in blocks for declared in CONSTANTS.findall(block) for name in CONSTANT.findall(declared)}
 
 
+def declared(text):
+    """(namespace below sunlit or None, names of free functions) of a header, or None where it opens none."""
+    opened = NAMESPACE.search(text)
+    return opened and (opened[1], set(DECLARATION.findall(text[opened.end():])))
+
+
 class Unnamed(unittest.TestCase):
     def test_is_told(self):
         text = "namespace {\nint of(const A& a, int b = 3) {\n}\nstd::map<A, B> of(\n    A* a) const {\n}\n}  // namespace\n"
@@ -76,6 +87,21 @@ class Unnamed(unittest.TestCase):
             for function, names in sorted(files.items()):
                 self.assertEqual(len(names), 1, f"{library.name}: {function[0]}() stands in {', '.join(sorted(names))}")
         self.assertGreater(seen, 1000)
+
+    def test_no_function_hides_one_of_sunlit(self):
+        text = "namespace sunlit::a {\nconst B& of(int);\nstd::vector<C> all(\n  int member();\n}\n"
+        self.assertEqual(declared(text), ("a", {"of", "all"}))
+        names = collections.defaultdict(set)
+        for folder in ("include", "src"):
+            for path in (SOURCE / folder).rglob("*.h"):
+                namespace, functions_there = declared(path.read_text()) or (None, set())
+                for name in functions_there - BY_ARGUMENT:
+                    names[namespace].add((name, path.relative_to(SOURCE)))
+        of_sunlit = {name for name, _ in names.pop(None)}
+        self.assertGreater(len(of_sunlit), 10)
+        for namespace, functions_there in names.items():
+            for name, path in functions_there:
+                self.assertNotIn(name, of_sunlit, f"{path}: {name}() of {namespace} hides that of sunlit")
 
     def test_files_of_a_test_program_differ_and_change_no_more_than_themselves(self):
         self.assertEqual(named("namespace {\nconstexpr double kA = 1, kG = kH;\nconst B kC{2};\nstruct D : E {\n};\nusing F = G;\n}  // namespace\n"),
