@@ -24,9 +24,9 @@ class DiagnosticStatusWrapper : public diagnostic_msgs::DiagnosticStatus {
     level = new_level;
     message = text;
   }
-  /// The worse level and what it says, or both texts where both are well or neither is.
-  void mergeSummary(unsigned char other_level, const std::string& text) {
-    if ((other_level == OK) == (level == OK)) {
+  /// The worse level and what it says; both texts where neither is well, and the first where both are.
+  void mergeSummary(_level_type other_level, const std::string& text) {
+    if (other_level != OK && level != OK) {
       message += (message.empty() ? "" : "; ") + text;
     } else if (other_level > level) {
       message = text;
