@@ -87,7 +87,7 @@ set(CMAKE_REQUIRED_LINK_OPTIONS -fuse-ld=gold)
 check_cxx_source_compiles("int main() { return 0; }" SUNLIT_GOLD)
 unset(CMAKE_REQUIRED_LINK_OPTIONS)
 add_library(sunlit_test_flags INTERFACE)
-target_link_libraries(sunlit_test_flags INTERFACE sunlit_flags)
+target_link_libraries(sunlit_test_flags INTERFACE sunlit_flags ${CMAKE_DL_LIBS})  # dladdr(), which C libraries before 2.34 have apart
 target_compile_options(sunlit_test_flags INTERFACE $<$<CONFIG:Release>:-O1> -fvisibility-inlines-hidden)
 if(SUNLIT_GOLD)
   target_link_options(sunlit_test_flags INTERFACE -fuse-ld=gold)
