@@ -69,6 +69,7 @@ class Experiment:
         self.needed = set(rospy.get_param("~needed"))
         self.report = rospy.get_param("~report", "")
         self.earlier = rospy.get_param("~earlier", {"summary": ""})
+        self.inputs = rospy.get_param("~inputs", None)  # of an earlier run that left nothing to evaluate
         plan = rospy.get_param("~recording", {})
         self.recorder = Recorder(self.output, plan, self.poses, rospy.get_param("~verbose")) if plan else None
         self.missed_since = None  # a renderer, while not everything seemed evaluated
@@ -79,6 +80,8 @@ class Experiment:
         """The lines that are to be said when all is done."""
         try:
             self._await_evaluator()
+            if self.inputs is not None:
+                self._await_inputs()
             rows = summary.read(self.output, self.earlier)
             summary.check(rows, self.poses, self.self_test_every)
             summary.check_localised(self.output)
@@ -87,7 +90,8 @@ class Experiment:
             if self.recorder and self.recorder.has_poses_left:
                 self._await(lambda dead: "render" in dead)
             said = self._recorded()
-            return [*said, *self._reported(rows), f"done; results in {self.output}"]
+            whose = "" if self.inputs is None else " of the earlier run, which left nothing to evaluate"
+            return [*said, *self._reported(rows), f"done; results{whose} in {self.output}"]
         finally:
             if self.recorder:
                 self.recorder.stop()
@@ -142,6 +146,13 @@ class Experiment:
             raise Failure(f"{missed[0]} ended before everything was evaluated; its reason stands above")
 
         self._await(is_over)
+
+    def _await_inputs(self):
+        """With nothing left to evaluate only the renderer can tell whether what is there is of this world and this path."""
+        inputs = summary.inputs_in(self.output)
+        self._await(lambda dead: summary.identity(inputs) != self.inputs or "render" in dead)
+        if summary.identity(inputs) == self.inputs:
+            raise Failure("render ended before it had compared world and path with those of this folder; its reason stands above")
 
     def _may_renderers_leave(self):
         """Once everything is evaluated. What the evaluator said of it may reach us a little later than them."""

@@ -15,10 +15,11 @@ FRAME_RATE_HZ = 10.0
 DEGREES_PER_HOUR = 15
 FAR_FROM_NOON_H = 1.5
 EVALUATOR, RECORDER = "/evaluator", "/" + recording.NODE  # nodes
-# What the evaluator writes down beside its results, as it was typed.
+# What the evaluator writes down beside its results, as it was typed, but for files, which have one name wherever one starts.
 ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "conditions", "spacing", "offset", "yaw", "exposure", "ev100",
          "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "vignetting", "glare",
          "blur", "mosaic", "line_delay", "exposure_time", "speed", "adaptation", "turbidity", "ozone", "ground_albedo")
+FILES = ("world", "robot", "path")
 
 
 @dataclasses.dataclass
@@ -28,6 +29,7 @@ class Beginning:
     evaluated: int = 0     # the first pose that is not evaluated
     recorded: int = 0      # the first pose that no bag holds; as `evaluated` where nothing is recorded
     written: dict = dataclasses.field(default_factory=dict)  # what it wrote at its end, as summary.identities() has it
+    inputs: str = ""       # the file that says what it was made from, as summary.identity() has it
 
     def render_at(self):
         return min(self.evaluated, self.recorded)
@@ -134,6 +136,8 @@ def _experiment(typed, given, places, beginning):
                              "begin": beginning.render_at()}
     if beginning.written:
         tree["earlier"] = beginning.written
+    if beginning.is_evaluated():
+        tree["inputs"] = beginning.inputs
     if read.flag("report", typed["report"]):
         tree["report"] = places["report"]
     return tree
@@ -245,8 +249,13 @@ def _self_test_renderer(typed, given, places, beginning):
     return tree
 
 
+def _about(typed):
+    about = {name: read.file(typed[name]) if name in FILES else typed[name] for name in ABOUT}
+    return dict(about, camera=f"{_about_camera(typed)}, {typed['camera_height']} m")
+
+
 def _about_camera(typed):
-    return typed["calibration"] or f"{typed['width']} x {typed['height']}, {typed['horizontal_fov']} deg"
+    return read.file(typed["calibration"]) or f"{typed['width']} x {typed['height']}, {typed['horizontal_fov']} deg"
 
 
 def _evaluator(typed, places, beginning):
@@ -257,8 +266,7 @@ def _evaluator(typed, places, beginning):
             "frame_rate": FRAME_RATE_HZ, "stamp_start": START_STAMP_S, "output_dir": places["output"],
             "images": "all" if read.flag("images", typed["images"]) else "samples", "exit_when_done": True,
             "report": False,  # the experiment draws it, once its recording is complete, too
-            "about": dict({name: typed[name] for name in ABOUT},
-                          camera=f"{_about_camera(typed)}, {typed['camera_height']} m")}
+            "about": _about(typed)}
     if read.flag("compressed", typed["compressed"]):
         tree["image_transport"] = "compressed"
     if typed["differences"] != "all":  # else its own default

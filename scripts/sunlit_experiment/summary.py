@@ -26,6 +26,12 @@ def identities(folder):
     return {name: identity(os.path.join(folder, name + ".csv")) for name in WRITTEN}
 
 
+def inputs_in(folder):
+    """The file in which the renderer keeps what its pictures are made from. Written anew once it has compared them with those of
+    the run that it goes on with."""
+    return os.path.join(folder, "inputs.yaml")
+
+
 def read(folder, earlier):
     """The rows of summary.csv. Each of `earlier`, identities by name, has to be another file by now: an evaluator that is
     killed between the two is not told from one that has ended."""

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <opencv2/core/version.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "evaluate/files/files.h"
 #include "sunlit/evaluate/run/run_folder.h"
@@ -45,6 +50,39 @@ std::map<std::string, std::string> settingsIn(const std::string& path) {
     settings[is_quoted ? quoted_key : line.substr(2, colon - 2)] = yamlUnquoted(line, &at);
   }
   return settings;
+}
+
+/// Of a value as people type it: words, numbers and marks, without the blanks between.
+std::vector<std::string> wordsIn(const std::string& text) {
+  std::vector<std::string> words;
+  bool goes_on = false;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    const bool is_mark = code < 0x80 && std::strchr("[]{}(),:;", c) != nullptr;
+    if (std::isspace(code) != 0) {
+      goes_on = false;
+    } else {
+      if (!goes_on || is_mark) words.emplace_back();
+      words.back() += c;
+      goes_on = !is_mark;
+    }
+  }
+  return words;
+}
+
+std::optional<double> numberIn(const std::string& word) {
+  char* end = nullptr;
+  const double number = std::strtod(word.c_str(), &end);
+  return *end == '\0' && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+/// Values that are spelt otherwise are the same: [5,13] and [5, 13.0].
+bool areTheSame(const std::string& a, const std::string& b) {
+  const std::vector<std::string> a_words = wordsIn(a), b_words = wordsIn(b);
+  return std::equal(a_words.begin(), a_words.end(), b_words.begin(), b_words.end(),
+                    [](const std::string& one, const std::string& other) {
+                      return one == other || (numberIn(one) && numberIn(one) == numberIn(other));
+                    });
 }
 
 std::string countersText(const EvaluationOptions& options, const Outcome& outcome,
@@ -108,7 +146,7 @@ void requireSameSettings(const std::string& path, const Settings& settings) {
   for (const auto& item : settings) {
     const auto found = old_settings.find(item.first);
     if (found == old_settings.end()) refuse(item.first, "not given", item.second);
-    if (found->second != item.second) refuse(item.first, found->second, item.second);
+    if (!areTheSame(found->second, item.second)) refuse(item.first, found->second, item.second);
   }
   for (const auto& item : old_settings) {
     if (current.count(item.first) == 0) refuse(item.first, item.second, "not given");

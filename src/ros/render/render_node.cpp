@@ -118,6 +118,8 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
                private_node_.advertiseService("pause", &RenderNode::onPause, this),
                private_node_.advertiseService("render_view", &RenderNode::onView, this)};
   throwIfInterrupted();
+  // Before others are waited for, who may have nothing to do any more.
+  if (files_ && files_->goesOn() && path_ && path_->ready()) keepInputs();
 }
 
 studio::Reports RenderNode::reports() {
@@ -211,10 +213,15 @@ void RenderNode::keepTiming() {
   timing_kept_ = now;
 }
 
-void RenderNode::beginFolder() {
+void RenderNode::keepInputs() {
   const studio::StudioOptions seen = options_.studioOptions();
   files_->keepInputs({light::fingerprint(studio_.world()), path_->fingerprint(),
                       cameraPrint(seen.render, seen.right), robot_ ? robot_->print() : std::string()});
+  inputs_kept_ = true;
+}
+
+void RenderNode::beginFolder() {
+  if (!inputs_kept_) keepInputs();
   files_->keepRasterizer(studio_.rasterizer());
   files_->keepGround(sky_.groundAlbedo());
   map_due_ = !files_->hasMap();

@@ -55,6 +55,7 @@ class RenderNode {
   void keepTiming();
   /// Before the first pose, once all readers were heard: an evaluator that refuses its folder never is, and
   /// what the folder holds must then stay as it is.
+  void keepInputs();
   void beginFolder();
   void drawMap();
   void finish();
@@ -83,7 +84,8 @@ class RenderNode {
   std::optional<std::chrono::steady_clock::time_point> timing_kept_;  // when it was written last
   bool map_due_ = false;
   bool has_begun_ = false;  // and may write into its folder
-  bool finished_ = false;   // all is rendered
+  bool inputs_kept_ = false;
+  bool finished_ = false;  // all is rendered
   std::vector<ros::ServiceServer> services_;
 };
 

@@ -80,9 +80,9 @@ void RunFiles::keepInputs(const RunInputs& inputs) const {
   std::ifstream file(path);
   const std::string then{std::istreambuf_iterator<char>(file), {}};
   const std::string differs = differingLine(now, then);
-  if (differs.empty()) return;
+  if (differs.empty()) return image::writeFileAtomically(path, then);
   throw std::runtime_error(
-      path + ": the run that was broken off in this folder was made from something else: now \"" + differs +
+      path + ": the run in this folder was made from something else: now \"" + differs +
       "\" is no line of this file; choose another output folder, or what it was begun with");
 }
 

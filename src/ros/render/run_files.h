@@ -27,8 +27,10 @@ class RunFiles {
   /// broken off, whose times count too; so does a run into a folder that holds values of the evaluator.
   RunFiles(const std::string& folder, bool goes_on);
 
+  bool goesOn() const { return goes_on_; }
   /// inputs.yaml. A run that goes on with another must have its inputs and studio::pictureMaker(): else
-  /// throws std::runtime_error saying what differs.
+  /// throws std::runtime_error saying what differs. The file is new afterwards in either case, which tells
+  /// whoever waits for it that they were compared.
   void keepInputs(const RunInputs& inputs) const;
   /// rasterizer.yaml: what draws, see render::Renderer::rasterizer().
   void keepRasterizer(const std::string& rasterizer) const;

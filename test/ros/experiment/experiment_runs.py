@@ -17,6 +17,8 @@ from launching import DIFFERENCES, LONG, POSES, WORLD, Launched, Terminal, kill_
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
 from screen import Screen  # noqa: E402
 
+OTHER_INPUTS = "inputs.yaml: the run in this folder was made from something else"
+
 
 class ExperimentRuns(unittest.TestCase):
 
@@ -230,28 +232,51 @@ class ExperimentRuns(unittest.TestCase):
 
     def test_a_whole_run_does_not_grow_and_stays_as_it_is(self):
         output = os.path.join(self.folder, "grown")
-        first = small_experiment(output, self_test="false", poses=4)
+        world = self.own_world()
+        first = small_experiment(output, self_test="false", poses=4, world=world)
         self.assertEqual(first.end(), 0, first.said())
         names = ("frames.csv", "run.yaml", "localisation.csv", "lost_features.csv")
         before = [self.bytes_of(output, name) for name in names]
-        again = small_experiment(output, self_test="false", poses=6)
-        self.assertNotEqual(again.end(), 0)
-        self.assertIn("holds a run of 4 poses that has ended", again.said())
-        self.assertEqual([self.bytes_of(output, name) for name in names], before)
 
-    def test_a_world_that_changed_meanwhile_is_not_mixed_with_the_old_one(self):
+        def started_again(**changes):
+            again = small_experiment(output, self_test="false", **dict(dict(poses=4, world=world), **changes))
+            return again.end(), again.said(), [self.bytes_of(output, name) for name in names]
+
+        status, said, after = started_again(poses=6)
+        self.assertNotEqual(status, 0)
+        self.assertIn("holds a run of 4 poses that has ended", said)
+        self.assertEqual(after, before)
+        status, said, after = started_again(spacing="0.50", hours="[ 10,12.0]", ev100="14", world=os.path.relpath(world))
+        self.assertEqual(status, 0, said)
+        self.assertIn("done; results of the earlier run, which left nothing to evaluate", said)
+        self.assertEqual(after[0], before[0])
+        self.change(world)
+        status, said, after = started_again()
+        self.assertNotEqual(status, 0, said)
+        self.assertIn(OTHER_INPUTS, said)
+        self.assertIn("experiment: FAILED: render ended before it had compared", said)
+        self.assertEqual(after[0], before[0])
+
+    def own_world(self):
         world = os.path.join(self.folder, "mine.urdf")
         shutil.copy(WORLD, world)
-        output = self.killed("changed", world=world)
-        before = self.bytes_of(output, "frames.csv")
+        return world
+
+    def change(self, world):
         with open(world) as file:
             text = file.read()
         self.assertIn('"2 4 2"', text)
         with open(world, "w") as file:
             file.write(text.replace('"2 4 2"', '"2 4 3"'))  # one box grows
+
+    def test_a_world_that_changed_meanwhile_is_not_mixed_with_the_old_one(self):
+        world = self.own_world()
+        output = self.killed("changed", world=world)
+        before = self.bytes_of(output, "frames.csv")
+        self.change(world)
         again = small_experiment(output, world=world)
         self.assertNotEqual(again.end(), 0)
-        self.assertIn("inputs.yaml: the run that was broken off in this folder was made from something else", again.said())
+        self.assertIn(OTHER_INPUTS, again.said())
         self.assertEqual(self.bytes_of(output, "frames.csv"), before)
 
     def test_a_renderer_that_dies_is_a_failure_with_a_reason(self):

@@ -230,7 +230,7 @@ TEST(Evaluation, IsCompleteAtOnceOnAFinishedFolder) {
 TEST(Evaluation, RefusesAFolderOfOtherSettingsNamingThem) {
   const TemporaryFolder folder;
   EvaluationOptions options = optionsFor(folder);
-  options.about = {{"date", "2024-07-01"}};
+  options.about = {{"date", "2024-07-01"}, {"hours", "[5, 13, 20.5]"}, {"world", "track 7"}};
   {
     Evaluation evaluation(options, {});
     feedPose(evaluation, 0);
@@ -244,9 +244,19 @@ TEST(Evaluation, RefusesAFolderOfOtherSettingsNamingThem) {
   other.comparer.ratio_test.ratio = 0.75;
   EXPECT_NE(refusal(other).find("ratio was 0.5, now 0.75"), std::string::npos) << refusal(other);
   other = options;
-  other.about = {{"date", "it's another"}};
+  other.about[0].second = "it's another";
   EXPECT_NE(refusal(other).find("about/date was 2024-07-01, now it's another"), std::string::npos)
       << refusal(other);
+  other = options;
+  other.about[1].second = "[5.0,13,20.50]";
+  EXPECT_EQ(refusal(other), "") << "spelt otherwise";
+  for (const char* hours : {"[5, 13, 20.6]", "[5, 13]", "[513, 20.5]", "5, 13, 20.5"}) {
+    other.about[1].second = hours;
+    EXPECT_NE(refusal(other), "") << hours;
+  }
+  other = options;
+  other.about[2].second = "track7";
+  EXPECT_NE(refusal(other), "");
 }
 
 TEST(Evaluation, TakesAFolderOfOtherSettingsInWhichNothingWasEvaluatedYet) {
