@@ -1,6 +1,10 @@
 #include "scene/collada_text.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include "scene/collada_tags.h"
 
 namespace sunlit::scene {
 namespace {
@@ -32,17 +36,87 @@ std::string withoutBlanksBeforeColors(const std::string& text) {
   return mended.append(text, copied, std::string::npos);
 }
 
+/// A picture that no file can be, by what the image is called.
+std::string absentFileOf(const std::string& image_tag) {
+  const std::string id = valueInTag(image_tag, "id");
+  return "image " + (id.empty() ? valueInTag(image_tag, "name") : id) + " (which names no file)";
+}
+
 void nameFilesOfImages(std::string& text) {
   const std::string begin = "<image ", end = "</image>", file = "<init_from>", data = "<data>";
   for (std::size_t from = text.find(begin); from != std::string::npos; from = text.find(begin, from + 1)) {
     const std::size_t to = text.find(end, from);
     if (to == std::string::npos) return;
+    const std::string tag = text.substr(from, text.find('>', from) - from);
     if (std::min(text.find(file, from), text.find(data, from)) > to)
-      text.insert(to, file + "not given</init_from>");
+      text.insert(to, file + absentFileOf(tag) + "</init_from>");
   }
 }
 
+std::size_t wordsFrom(std::size_t at, const std::string& text) {
+  const std::string blanks = " \t\r\n\f";
+  const std::size_t end = std::min(text.size(), text.find('<', at));
+  std::size_t words = 0;
+  for (at = text.find_first_not_of(blanks, at); at < end; at = text.find_first_not_of(blanks, at)) {
+    ++words;
+    at = std::min(end, text.find_first_of(blanks, at));
+  }
+  return words;
+}
+
+/// One <lines> or <linestrips>.
+struct CountedLines {
+  std::size_t at = 0, length = 0;  ///< of the count in the text; no length: there is none to mend
+  std::uint64_t count = 0;
+  bool is_strips = false;
+  std::uint64_t per_corner = 1;
+  std::uint64_t parts = 0, numbers = 0;  ///< the <p>, and what stands in all of them
+
+  std::uint64_t there() const { return is_strips ? parts : numbers / per_corner / 2; }
+};
+
+/// As its tag has it. What is no whole number stays as it is.
+CountedLines linesOf(const std::string& name, const std::string& tag, std::size_t at) {
+  CountedLines lines;
+  const auto [begin, length] = placeInTag(tag, "count");
+  if (length == 0 || tag.find_first_not_of("0123456789", begin) < begin + length) return lines;
+  lines.at = at + begin;
+  lines.length = length;
+  lines.count = std::strtoull(tag.c_str() + begin, nullptr, 10);
+  lines.is_strips = name == "linestrips";
+  return lines;
+}
+
 }  // namespace
+
+std::string withCountedLines(const std::string& text) {
+  std::string mended;
+  std::size_t copied = 0;
+  CountedLines lines;
+  const auto finish = [&] {
+    if (lines.length > 0 && lines.count > lines.there()) {
+      mended.append(text, copied, lines.at - copied).append(std::to_string(lines.there()));
+      copied = lines.at + lines.length;
+    }
+    lines = {};
+  };
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {
+    if (lines.length > 0 && name == "input") {
+      constexpr unsigned long long kLargest = 0x7FFFFFFF;
+      const std::string offset = valueInTag(tag, "offset");
+      lines.per_corner = std::max<std::uint64_t>(
+          lines.per_corner, 1 + std::min(kLargest, std::strtoull(offset.c_str(), nullptr, 10)));
+    } else if (lines.length > 0 && name == "p") {
+      ++lines.parts;
+      lines.numbers += wordsFrom(at + tag.size(), text);
+    } else {
+      finish();
+      if (name == "lines" || name == "linestrips") lines = linesOf(name, tag, at);
+    }
+  });
+  finish();
+  return mended.append(text, copied, std::string::npos);
+}
 
 std::string withoutAnimations(const std::string& text) {
   const std::string begin = "<library_animations", end = "</library_animations>";

@@ -15,8 +15,12 @@ struct ColladaText {
 /// are seen at rest.
 std::string withoutAnimations(const std::string& text);
 
+/// `text` in which no <lines> and <linestrips> count more than stand there, as SketchUp writes them: nobody
+/// draws them, and Assimp takes memory for what is counted.
+std::string withCountedLines(const std::string& text);
+
 /// `text` without comments, without blanks between the tag of a colour and its numbers, and without holes;
-/// and pictures without a file have one that is not there.
+/// and pictures without a file have one that is not there, called as the image is.
 ColladaText readableCollada(const std::string& text);
 
 }  // namespace sunlit::scene

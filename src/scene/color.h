@@ -41,6 +41,12 @@ inline LinearRgb linearFromBright(const std::array<float, 3>& encoded) {
   return linear;
 }
 
+/// What a colour beside a picture multiplies it by: a black one, as exporters leave it, would make the
+/// picture pointless, and counts as 1.
+inline LinearRgb factorBesidePicture(const LinearRgb& color) {
+  return color.value.maxCoeff() > 0.0f ? color : LinearRgb(1.0f, 1.0f, 1.0f);
+}
+
 /// Perceptual roughness whose GGX lobe is about as wide as Blinn and Phong's of the exponent `shininess`, >
 /// 0: α² = 2 / (n + 2) (Walter et al. 2007, section 5.2, after Beckmann), roughness = √α.
 inline float roughnessOfPhong(float shininess) {

@@ -12,11 +12,14 @@
 namespace sunlit::scene {
 namespace {
 
+/// What a colour is the colour of.
+enum class Of { kPaint, kGlow, kPicture };
+
 struct NamedLook {
   const char* name;
   std::array<float, 3> display;  ///< as on a screen
+  Of of = Of::kPaint;
   float opacity = 1.0f;
-  bool glows = false;  ///< in that colour
 };
 
 /// Gazebo's own materials by their diffuse colours (media/materials/scripts/gazebo.material of Gazebo
@@ -44,57 +47,57 @@ constexpr NamedLook kLooks[] = {{"Grey", {0.7f, 0.7f, 0.7f}},
                                 {"Turquoise", {0.0f, 1.0f, 1.0f}},
                                 {"Indigo", {0.33f, 0.0f, 0.5f}},
                                 {"Gold", {0.8f, 0.65f, 0.25f}},
-                                {"Wood", {0.55f, 0.42f, 0.28f}},
-                                {"WoodFloor", {0.60f, 0.45f, 0.30f}},
-                                {"WoodPallet", {0.62f, 0.48f, 0.32f}},
-                                {"Bricks", {0.58f, 0.33f, 0.26f}},
-                                {"CeilingTiled", {0.80f, 0.80f, 0.78f}},
-                                {"PaintedWall", {0.78f, 0.76f, 0.70f}},
-                                {"CloudySky", {0.60f, 0.70f, 0.80f}},
-                                {"Grass", {0.30f, 0.42f, 0.18f}},
-                                {"Road", {0.32f, 0.32f, 0.32f}},
-                                {"Asphalt", {0.30f, 0.30f, 0.30f}},
-                                {"Residential", {0.35f, 0.35f, 0.35f}},
-                                {"Pedestrian", {0.55f, 0.52f, 0.50f}},
-                                {"Rocky", {0.45f, 0.42f, 0.38f}},
-                                {"Chrome", {0.75f, 0.75f, 0.75f}},
-                                {"WhiteGlow", {1.0f, 1.0f, 1.0f}, 1.0f, true},
-                                {"RedGlow", {1.0f, 0.0f, 0.0f}, 1.0f, true},
-                                {"GreenGlow", {0.0f, 1.0f, 0.0f}, 1.0f, true},
-                                {"BlueGlow", {0.0f, 0.0f, 1.0f}, 1.0f, true},
-                                {"YellowGlow", {1.0f, 1.0f, 0.0f}, 1.0f, true},
-                                {"PurpleGlow", {1.0f, 0.0f, 1.0f}, 1.0f, true},
-                                {"TurquoiseGlow", {0.0f, 1.0f, 1.0f}, 1.0f, true},
-                                {"LightOn", {0.0f, 1.0f, 0.0f}, 1.0f, true},
-                                {"LightOff", {1.0f, 0.0f, 0.0f}, 1.0f, true},
-                                {"RedTransparent", {1.0f, 0.0f, 0.0f}, 0.5f},
-                                {"GreenTransparent", {0.0f, 1.0f, 0.0f}, 0.5f},
-                                {"BlueTransparent", {0.0f, 0.0f, 1.0f}, 0.5f},
-                                {"GreyTransparent", {0.5f, 0.5f, 0.5f}, 0.5f},
-                                {"YellowTransparent", {1.0f, 1.0f, 0.0f}, 0.5f},
-                                {"OrangeTransparent", {1.0f, 0.44f, 0.0f}, 0.4f},
-                                {"BlueLaser", {0.0f, 0.0f, 1.0f}, 0.4f},
-                                {"PioneerBody", {1.0f, 0.0f, 0.0f}},
+                                {"Wood", {0.55f, 0.42f, 0.28f}, Of::kPicture},
+                                {"WoodFloor", {0.60f, 0.45f, 0.30f}, Of::kPicture},
+                                {"WoodPallet", {0.62f, 0.48f, 0.32f}, Of::kPicture},
+                                {"Bricks", {0.58f, 0.33f, 0.26f}, Of::kPicture},
+                                {"CeilingTiled", {0.80f, 0.80f, 0.78f}, Of::kPicture},
+                                {"PaintedWall", {0.78f, 0.76f, 0.70f}, Of::kPicture},
+                                {"CloudySky", {0.60f, 0.70f, 0.80f}, Of::kPicture},
+                                {"Grass", {0.30f, 0.42f, 0.18f}, Of::kPicture},
+                                {"Road", {0.32f, 0.32f, 0.32f}, Of::kPicture},
+                                {"Asphalt", {0.30f, 0.30f, 0.30f}, Of::kPicture},
+                                {"Residential", {0.35f, 0.35f, 0.35f}, Of::kPicture},
+                                {"Pedestrian", {0.55f, 0.52f, 0.50f}, Of::kPicture},
+                                {"Rocky", {0.45f, 0.42f, 0.38f}, Of::kPicture},
+                                {"Chrome", {0.75f, 0.75f, 0.75f}, Of::kPicture},
+                                {"WhiteGlow", {1.0f, 1.0f, 1.0f}, Of::kGlow},
+                                {"RedGlow", {1.0f, 0.0f, 0.0f}, Of::kGlow},
+                                {"GreenGlow", {0.0f, 1.0f, 0.0f}, Of::kGlow},
+                                {"BlueGlow", {0.0f, 0.0f, 1.0f}, Of::kGlow},
+                                {"YellowGlow", {1.0f, 1.0f, 0.0f}, Of::kGlow},
+                                {"PurpleGlow", {1.0f, 0.0f, 1.0f}, Of::kGlow},
+                                {"TurquoiseGlow", {0.0f, 1.0f, 1.0f}, Of::kGlow},
+                                {"LightOn", {0.0f, 1.0f, 0.0f}, Of::kGlow},
+                                {"LightOff", {1.0f, 0.0f, 0.0f}, Of::kGlow},
+                                {"RedTransparent", {1.0f, 0.0f, 0.0f}, Of::kPaint, 0.5f},
+                                {"GreenTransparent", {0.0f, 1.0f, 0.0f}, Of::kPaint, 0.5f},
+                                {"BlueTransparent", {0.0f, 0.0f, 1.0f}, Of::kPaint, 0.5f},
+                                {"GreyTransparent", {0.5f, 0.5f, 0.5f}, Of::kPaint, 0.5f},
+                                {"YellowTransparent", {1.0f, 1.0f, 0.0f}, Of::kPaint, 0.5f},
+                                {"OrangeTransparent", {1.0f, 0.44f, 0.0f}, Of::kPaint, 0.4f},
+                                {"BlueLaser", {0.0f, 0.0f, 1.0f}, Of::kPaint, 0.4f},
+                                {"PioneerBody", {1.0f, 0.0f, 0.0f}, Of::kPicture},
                                 {"Pioneer2Body", {0.68f, 0.0f, 0.0f}},
-                                {"WindowFrame", {0.60f, 0.55f, 0.50f}},
-                                {"Motorway", {0.32f, 0.32f, 0.32f}},
-                                {"Primary", {0.32f, 0.32f, 0.32f}},
-                                {"Secondary", {0.32f, 0.32f, 0.32f}},
-                                {"Tertiary", {0.35f, 0.35f, 0.35f}},
-                                {"Trunk", {0.32f, 0.32f, 0.32f}},
-                                {"Lanes_6", {0.32f, 0.32f, 0.32f}},
-                                {"Lanes_4", {0.32f, 0.32f, 0.32f}},
-                                {"Lanes_2", {0.32f, 0.32f, 0.32f}},
-                                {"Lane_1", {0.32f, 0.32f, 0.32f}},
-                                {"Footway", {0.55f, 0.52f, 0.50f}},
-                                {"Steps", {0.55f, 0.52f, 0.50f}},
-                                {"Runway", {0.30f, 0.30f, 0.30f}}};
+                                {"WindowFrame", {0.60f, 0.55f, 0.50f}, Of::kPicture},
+                                {"Motorway", {0.32f, 0.32f, 0.32f}, Of::kPicture},
+                                {"Primary", {0.32f, 0.32f, 0.32f}, Of::kPicture},
+                                {"Secondary", {0.32f, 0.32f, 0.32f}, Of::kPicture},
+                                {"Tertiary", {0.35f, 0.35f, 0.35f}, Of::kPicture},
+                                {"Trunk", {0.32f, 0.32f, 0.32f}, Of::kPicture},
+                                {"Lanes_6", {0.32f, 0.32f, 0.32f}, Of::kPicture},
+                                {"Lanes_4", {0.32f, 0.32f, 0.32f}, Of::kPicture},
+                                {"Lanes_2", {0.32f, 0.32f, 0.32f}, Of::kPicture},
+                                {"Lane_1", {0.32f, 0.32f, 0.32f}, Of::kPicture},
+                                {"Footway", {0.55f, 0.52f, 0.50f}, Of::kPicture},
+                                {"Steps", {0.55f, 0.52f, 0.50f}, Of::kPicture},
+                                {"Runway", {0.30f, 0.30f, 0.30f}, Of::kPicture}};
 
 /// What OGRE can do and we do not.
 const std::set<std::string> kLost = {
-    "vertex_program_ref", "fragment_program_ref", "rtshader_system", "env_map",          "scroll",
-    "scroll_anim",        "rotate_anim",          "wave_xform",      "rotate",           "colour_op",
-    "colour_op_ex",       "cull_hardware",        "cull_software",   "tex_address_mode", "tex_coord_set"};
+    "vertex_program_ref", "fragment_program_ref", "rtshader_system", "env_map", "scroll",
+    "scroll_anim",        "rotate_anim",          "wave_xform",      "rotate",  "cull_hardware",
+    "cull_software",      "tex_address_mode",     "tex_coord_set"};
 
 using Words = std::vector<std::string>;
 using Lines = std::vector<Words>;
@@ -160,11 +163,61 @@ std::optional<Eigen::Array2f> scaleOf(const Words& words) {
   return scale;
 }
 
-/// A material on the way, and in which of its texture units.
+/// Whether OGRE's `colour_op` or `colour_op_ex` has a texture multiply what it lies on, as without either.
+bool multiplies(const Words& words) {
+  if (words.size() < 2 || words[1] != "modulate") return false;
+  if (words[0] == "colour_op") return true;
+  if (words.size() < 4) return false;
+  const std::string& other = words[words[2] == "src_texture" ? 3 : 2];
+  return (words[2] == "src_texture" || words[3] == "src_texture") &&
+         (other == "src_current" || other == "src_diffuse");
+}
+
+/// A material on the way, and in which of its passes and texture units.
 struct Reading {
   ScriptMaterial material;
+  int passes = 0;
   int units = 0;
+  int units_of_pass = 0;
+  std::optional<int> diffuse_pass = std::nullopt;  ///< that of the diffuse colour
+  std::set<int> texture_passes = {};               ///< those with the texture
+  std::set<int> plain_passes = {};                 ///< those whose texture no diffuse colour multiplies
+
+  /// Where a parent gives one of the two, it is of the same pass.
+  bool tints() const {
+    if (!diffuse_pass || texture_passes.empty()) return plain_passes.empty();
+    return texture_passes.count(*diffuse_pass) == 1 && plain_passes.count(*diffuse_pass) == 0;
+  }
 };
+
+/// Where in the script the reading is, and what is between the diffuse colour and the texture.
+void readPass(const Words& words, Reading& reading) {
+  if (words[0] == "pass") {
+    ++reading.passes;
+    reading.units_of_pass = 0;
+  }
+  if (words[0] == "texture_unit") {
+    ++reading.units;
+    ++reading.units_of_pass;
+  }
+  if (words[0] == "lighting" && words.size() > 1 && words[1] == "off")
+    reading.plain_passes.insert(reading.passes);
+  if ((words[0] == "colour_op" || words[0] == "colour_op_ex") && !multiplies(words)) {
+    reading.material.lost.insert(words[0]);
+    if (reading.units_of_pass == 1) reading.plain_passes.insert(reading.passes);
+  }
+}
+
+/// The first texture; others are named.
+void readTexture(const Words& words, Reading& reading) {
+  if (words.size() < 2) return;
+  std::optional<std::string>& texture = reading.material.texture;
+  if (!texture) texture = words[1];
+  if (words[1] == *texture)
+    reading.texture_passes.insert(reading.passes);
+  else
+    reading.material.lost.insert("texture " + words[1]);
+}
 
 /// One line, or several written as one: a keyword may follow a brace.
 void readLine(const Words& line, Reading& reading) {
@@ -174,9 +227,13 @@ void readLine(const Words& line, Reading& reading) {
     const Words words(line.begin() + static_cast<std::ptrdiff_t>(i), line.end());
     if (words[0] == "diffuse" && !material.diffuse) {
       material.diffuse = colorOf(words);
+      if (material.diffuse)
+        reading.diffuse_pass = reading.passes;
+      else  // that of the vertices
+        reading.plain_passes.insert(reading.passes);
       if (words.size() > 4) material.opacity = std::clamp(numberOf(words[4]).value_or(1.0f), 0.0f, 1.0f);
     }
-    if (words[0] == "texture_unit") ++reading.units;
+    readPass(words, reading);
     if (words[0] == "scale") {
       const std::optional<Eigen::Array2f> scale = reading.units == 1 ? scaleOf(words) : std::nullopt;
       if (scale) material.texture_scale = *scale;
@@ -192,12 +249,10 @@ void readLine(const Words& line, Reading& reading) {
       material.blends |= by_alpha;
       if (!by_alpha) material.lost.insert(words[0]);
     }
-    if (words[0] == "texture" && words.size() > 1 && !material.texture) material.texture = words[1];
+    if (words[0] == "texture") readTexture(words, reading);
     if (words[0] == "alpha_rejection") material.alpha_rejection = true;
     if (words[0] == "emissive" && !material.emissive) material.emissive = colorOf(words);
     if (kLost.count(words[0]) > 0) material.lost.insert(words[0]);
-    if (words[0] == "texture" && words.size() > 1 && material.texture && words[1] != *material.texture)
-      material.lost.insert("texture " + words[1]);
   }
 }
 
@@ -212,6 +267,7 @@ void inherit(const ScriptMaterial& parent, ScriptMaterial* material) {
     material->texture_from = parent.texture_from;
     if (!material->texture_scale) material->texture_scale = parent.texture_scale;
   }
+  material->tints = material->tints && parent.tints;
   material->blends = material->blends || parent.blends;
   material->alpha_rejection = material->alpha_rejection || parent.alpha_rejection;
   if (!material->emissive) material->emissive = parent.emissive;
@@ -223,6 +279,7 @@ std::optional<ScriptMaterial> comesWithGazebo(const std::string& name) {
   if (!look) return std::nullopt;
   ScriptMaterial material;
   material.diffuse = look->color;
+  material.tints = !look->pictured;
   material.emissive = look->emissive;
   material.blends = look->opacity < 1.0f;
   material.opacity = look->opacity;
@@ -258,6 +315,7 @@ std::optional<ScriptMaterial> materialIn(const Script& script, std::size_t end, 
     for (const std::string& word : words) depth += word == "{" ? 1 : word == "}" ? -1 : 0;
   }
   if (!reading) return std::nullopt;
+  reading->material.tints = reading->tints();
   if (parent) inherit(*parent, &reading->material);
   return reading->material;
 }
@@ -280,7 +338,8 @@ std::optional<GazeboLook> gazeboLook(const std::string& name) {
   for (const NamedLook& look : kLooks) {
     if (name.substr(prefix.size()) != look.name) continue;
     const LinearRgb color = linearFromSrgb(look.display);
-    return GazeboLook{color, look.opacity, look.glows ? color : LinearRgb()};
+    return GazeboLook{color, look.opacity, look.of == Of::kGlow ? color : LinearRgb(),
+                      look.of == Of::kPicture};
   }
   return std::nullopt;
 }

@@ -14,8 +14,9 @@ namespace sunlit::scene {
 
 struct GazeboLook {
   LinearRgb color;
-  float opacity = 1.0f;  ///< 0 … 1
-  LinearRgb emissive;    ///< as on a display
+  float opacity = 1.0f;   ///< 0 … 1
+  LinearRgb emissive;     ///< as on a display
+  bool pictured = false;  ///< the colour stands for a picture
 };
 
 /// Of a material that comes with Gazebo, such as "Gazebo/Grey"; textured ones by their mean colour. None for
@@ -28,6 +29,7 @@ struct ScriptMaterial {
   std::optional<LinearRgb> diffuse;
   std::optional<std::string> texture;  ///< as written in the script
   std::string texture_from;            ///< the file of that script, where one is known
+  bool tints = true;                   ///< the diffuse colour multiplies the texture
   bool alpha_rejection = false;        ///< cut out where transparent
   bool blends = false;                 ///< by its opacity
   float opacity = 1.0f;                ///< times that of the texture, 0 … 1

@@ -83,8 +83,7 @@ std::string worldIn(const std::string& folder) {
 /// Throws std::runtime_error where there is none.
 std::string fileOf(const std::string& world, const SearchPath& search_path) {
   const Found found = ResourceFinder(search_path, world).find(world, world);
-  if (!found.file)
-    throw std::runtime_error("there is no world " + world + "; it was looked for as " + placesTried(found));
+  if (!found.file) throw std::runtime_error("there is no world " + world + "; " + placesTried(found));
   const std::string file = std::filesystem::is_directory(*found.file) ? worldIn(*found.file) : *found.file;
   image::requireNoDevice(file);
   if (isOneOf(extensionOf(file), {".world", ".sdf", ".urdf", ".dae", ".gltf", ".glb", ".obj"})) return file;

@@ -240,8 +240,8 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
 /// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended.
 void readCollada(const std::string& file, Assimp::Importer& importer, SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text =
-      withoutAnimations({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
+  std::string text = withCountedLines(
+      withoutAnimations({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}));
   requireReadableCollada(text, file);
   text = withKnownSets(text);
   if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return;

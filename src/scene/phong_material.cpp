@@ -162,10 +162,9 @@ class PhongReader {
   }
 
   /// What stands beside a picture: of OBJ the colour multiplies it, as MTL, OGRE (Gazebo, RViz) and three.js
-  /// have it; a black one, as exporters leave it, would make the picture pointless. Of COLLADA there is none.
+  /// have it. Of COLLADA there is none.
   LinearRgb factorOf(const LinearRgb& color) const {
-    const bool multiplies = extension_ == ".obj" && color.value.maxCoeff() > 0.0f;
-    return multiplies ? color : LinearRgb(1.0f, 1.0f, 1.0f);
+    return extension_ == ".obj" ? factorBesidePicture(color) : LinearRgb(1.0f, 1.0f, 1.0f);
   }
 
   /// Colour and opacity. A picture of colour that is missing makes the material neutral.

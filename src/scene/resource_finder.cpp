@@ -61,11 +61,19 @@ Found firstOf(const std::vector<fs::path>& candidates, Wanted wanted = Wanted::k
   return found;
 }
 
-/// The folder of `file` and all its parents, nearest first.
+/// Whether it begins with a scheme, as model://.
+bool isAddress(const std::string& text) {
+  const std::size_t colon = text.find_first_of(":/");
+  return colon != std::string::npos && text.compare(colon, 3, "://") == 0;
+}
+
+/// The folder of `file` and all its parents, nearest first. Another address than file:// lies in none.
 std::vector<std::string> folderAndParents(const std::string& file) {
   std::vector<std::string> folders;
+  if (isAddress(file) && file.rfind(kFileScheme, 0) != 0) return folders;
   std::error_code error;
-  fs::path folder = fs::absolute(file, error).lexically_normal().parent_path();
+  const std::string path = isAddress(file) ? withoutScheme(file) : file;
+  fs::path folder = fs::absolute(path, error).lexically_normal().parent_path();
   while (!folder.empty()) {
     folders.push_back(folder.string());
     if (folder == folder.root_path()) break;
@@ -98,6 +106,20 @@ std::string listed(const std::vector<std::string>& places) {
     text << places[i];
   }
   return text.str();
+}
+
+/// That of package://NAME/…; empty for others.
+std::string packageOf(const std::string& uri) {
+  if (uri.rfind(kPackageScheme, 0) != 0) return {};
+  const fs::path path = withoutScheme(uri);
+  return path.empty() ? "" : path.begin()->string();
+}
+
+/// Of a package that ROS does not know; nothing for none.
+std::string noteOf(const std::string& package) {
+  if (package.empty()) return package;
+  return "; ROS knows no package " + package +
+         ", neither below ROS_PACKAGE_PATH nor in /usr/share: is its workspace sourced?";
 }
 
 }  // namespace
@@ -133,15 +155,15 @@ Found ResourceFinder::findAsWritten(const std::string& uri, const std::string& f
   if (path.is_absolute()) return firstOf({path}, wanted);
   const std::vector<std::string> roots = rootsFrom(from_file);
   std::vector<fs::path> candidates;
-  if (package_folder_ && uri.rfind(kPackageScheme, 0) == 0) {
-    const std::string folder = package_folder_(path.begin()->string());
-    if (!folder.empty()) candidates.push_back(folder / path.lexically_relative(*path.begin()));
-  }
+  const std::string package = packageOf(uri);
+  const std::string of_package = package_folder_ && !package.empty() ? package_folder_(package) : "";
+  if (!of_package.empty()) candidates.push_back(of_package / path.lexically_relative(package));
   for (const std::string& root : roots) {
     candidates.push_back(fs::path(root) / path);
     candidates.push_back(fs::path(root) / "models" / path);
   }
-  const Found found = firstOf(candidates, wanted);
+  Found found = firstOf(candidates, wanted);
+  found.no_package = unknownPackage(uri);
   if (found.file) return found;
   // Where Gazebo classic looks besides, and hardly anyone keeps anything: not worth telling.
   std::vector<fs::path> media;
@@ -201,14 +223,21 @@ std::string ResourceFinder::roots() const {
   return listed(roots_);
 }
 
+std::string ResourceFinder::unknownPackage(const std::string& uri) const {
+  const std::string package = packageOf(uri);
+  return package_folder_ && !package.empty() && package_folder_(package).empty() ? package : "";
+}
+
 std::string ResourceFinder::rootsOf(const std::string& uri) const {
-  if (!fuelAddress(uri)) return roots();
+  if (!fuelAddress(uri)) return roots() + noteOf(unknownPackage(uri));
   return "Fuel's cache" + (fuel_caches_.empty() ? ", which has no folder" : " in " + listed(fuel_caches_)) +
          "; nothing is fetched from the network, `gz fuel download -u ADDRESS` does that";
 }
 
 std::string placesTried(const Found& found) {
-  return listed(found.tried);
+  const std::string places = found.tried.empty() ? "there is no folder to look for it in"
+                                                 : "it was looked for as " + listed(found.tried);
+  return places + noteOf(found.no_package);
 }
 
 std::vector<std::string> gazeboFolders(const std::string& share) {

@@ -14,7 +14,8 @@ namespace sunlit::scene {
 struct Found {
   std::optional<std::string> file;
   std::vector<std::string> tried;
-  bool other_case = false;  ///< found only by ignoring upper and lower case
+  bool other_case = false;      ///< found only by ignoring upper and lower case
+  std::string no_package = {};  ///< the package of the address, where ROS knows none of that name
 };
 
 /// What is looked for. A folder of that name may well be something else.
@@ -26,7 +27,7 @@ enum class Wanted {
 class ResourceFinder {
  public:
   /// `scene_file` is the file that is loaded; its folder and that folder's parents are looked through as
-  /// well.
+  /// well. An address, but for file://, has none.
   ResourceFinder(const SearchPath& search_path, const std::string& scene_file);
 
   /// What `uri` means where it is written in `from_file`: model://name/…, file://…, package://name/… or a
@@ -49,7 +50,8 @@ class ResourceFinder {
 
   /// The folders that find() goes through for what the scene file names: "a, b and c".
   std::string roots() const;
-  /// Those that find() goes through for `uri` there; of an address of Fuel also that nothing is fetched.
+  /// Those that find() goes through for `uri` there; of an address of Fuel also that nothing is fetched, and
+  /// of a package that ROS does not know, this.
   std::string rootsOf(const std::string& uri) const;
   /// What is to become of a model or mesh that is not found.
   Missing missing() const { return missing_; }
@@ -58,6 +60,8 @@ class ResourceFinder {
   Found findAsWritten(const std::string& uri, const std::string& from_file, Wanted wanted) const;
 
   std::vector<std::string> rootsFrom(const std::string& from_file) const;
+  /// The name of the package that `uri` is of, where there is none of that name; else empty.
+  std::string unknownPackage(const std::string& uri) const;
 
   std::vector<std::string> roots_;  ///< the scene's folder, those above it, and those that were named
   std::size_t parents_;             ///< how many are above it
@@ -66,7 +70,7 @@ class ResourceFinder {
   Missing missing_;
 };
 
-/// "a, b and c", for messages about where something was looked for.
+/// "it was looked for as a, b and c", and which package ROS does not know.
 std::string placesTried(const Found& found);
 
 /// Where versions of Gazebo classic keep their models and media: the folders gazebo-VERSION in `share`,

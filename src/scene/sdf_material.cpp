@@ -60,7 +60,9 @@ Material SdfMaterials::lookOf(const ScriptMaterial& script, const ScriptUse& use
     if (!file) builder_.warn(kMissingTextures, *script.texture + " of " + script.texture_from);
   }
   const bool textured = material.base_texture != Material::kNoTexture;
-  if (textured) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+  const LinearRgb white(1.0f, 1.0f, 1.0f);
+  const LinearRgb tint = script.tints ? script.diffuse.value_or(white) : white;
+  if (textured) material.base_color = factorBesidePicture(tint);
   if (script.diffuse && !script.texture) material.base_color = *script.diffuse;
   if (script.emissive) material.emission.value = kDisplayWhite_cd_per_m2 * script.emissive->value;
   for (const std::string& lost : script.lost)

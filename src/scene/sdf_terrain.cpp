@@ -82,8 +82,8 @@ std::optional<Mesh> terrainOf(const SdfHeightmap& source, const TerrainUse& use,
   try {
     const Found found = finder.find(source.Uri(), source.FilePath());
     if (!found.file) {
-      throw std::runtime_error(place + ": there is no height map " + source.Uri() +
-                               "; it was looked for as " + placesTried(found));
+      throw std::runtime_error(place + ": there is no height map " + source.Uri() + "; " +
+                               placesTried(found));
     }
     const image::GreyPicture grey = image::readGreyWithin(kMostTerrainVertices, *found.file);
     const image::Picture<float, 1>& values = grey.values;

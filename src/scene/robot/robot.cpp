@@ -44,7 +44,7 @@ Robot loadRobot(const std::string& file, const SearchPath& search_path) {
   const ResourceFinder finder(search_path, file);
   const Found found = finder.find(file, file);
   if (!found.file || std::filesystem::is_directory(*found.file)) {
-    throw std::runtime_error("there is no robot " + file + "; it was looked for as " + placesTried(found));
+    throw std::runtime_error("there is no robot " + file + "; " + placesTried(found));
   }
   image::requireNoDevice(*found.file);
   const std::string extension = extensionOf(*found.file);

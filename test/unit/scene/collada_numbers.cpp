@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "unit/scene/scene_files.h"
 
@@ -71,6 +72,42 @@ TEST_F(ColladaNumbers, OfCornersOfPolygonsAreNoMoreThanThereAre) {
   EXPECT_EQ(load(write("t.dae", polygons("3")), {}).triangleCount(), 1u);
   EXPECT_EQ(errorOf(write("t.dae", polygons("2147483647"))),
             pathOf("t.dae") + ":2: <vcount>: asks for 2147483647 corners, but <p> has 3");
+}
+
+// SketchUp counts lines that it does not write. Memory for them would not be there.
+TEST_F(ColladaNumbers, OfLinesMayBeMoreThanThereAre) {
+  const std::string triangles = "<triangles count='1'>",
+                    input = "<input semantic='VERTEX' source='#v' offset='0'/>",
+                    other = "<input semantic='NORMAL' source='#p' offset='1'/>";
+  const auto warningsWith = [&](const std::string& lines) {
+    std::string text = kGood;
+    const Scene scene = load(write("t.dae", text.insert(text.find(triangles), lines)), {});
+    EXPECT_EQ(scene.triangleCount(), 1u) << lines;
+    return scene.warnings;
+  };
+  const auto leftOut = [&](const std::string& lines) {
+    return std::vector<std::string>{
+        "1 files have lines and points, which have no surface and are left out: " + lines + " in " +
+        pathOf("t.dae")};
+  };
+  for (const std::string count : {"3", "2147483647", "99999999999999999999999"}) {
+    EXPECT_EQ(warningsWith("<!-- <lines> --><lines count='" + count + "'>" + input +
+                           "<p>0 1\n<!-- --></p><p>1\t2 </p></lines>"),
+              leftOut("2"))
+        << count;
+    EXPECT_EQ(
+        warningsWith("<lines material='m' count='" + count + "'>" + input + other + "<p>0 0 1 1</p></lines>"),
+        leftOut("1"))
+        << count;
+    EXPECT_EQ(warningsWith("<linestrips count='" + count + "'>" + input + "<p>0 1 2</p></linestrips>"),
+              leftOut("2"))
+        << count;
+    for (const std::string none : {"", "<p></p>", "<p/>", "<p>0</p>"})
+      EXPECT_TRUE(warningsWith("<lines count='" + count + "'>" + input + none + "</lines>").empty())
+          << count << none;
+  }
+  EXPECT_EQ(errorWith(triangles, "<lines count='-1'/>" + triangles),
+            "2: <lines>: count is '-1', but must be a whole number from 0 to 2147483647");
 }
 
 TEST_F(ColladaNumbers, OfNodesThatContainThemselvesAreRefused) {

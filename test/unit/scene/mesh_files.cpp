@@ -441,7 +441,10 @@ TEST_F(MeshFile, APictureWithoutAFileIsAMissingTexture) {
   text.replace(text.find(file), file.size(), "<!--" + file + "-->");
   const Scene scene = load(write("t.dae", text), {});
   EXPECT_EQ(scene.triangleCount(), 1u);
-  expectOneWarning(scene, "1 textures are missing, a neutral material takes their place: not given of ");
+  expectOneWarning(scene,
+                   "1 textures are missing, a neutral material takes their place: image picture (which names "
+                   "no file) of " +
+                       pathOf("t.dae"));
 }
 
 TEST_F(MeshFile, EmptyAnimationsEndWhereTheyBegin) {

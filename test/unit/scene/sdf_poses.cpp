@@ -181,6 +181,21 @@ TEST_F(Sdf, AMissingIncludeNamesTheFileAndThePlacesOnce) {
   EXPECT_LT(error.size(), 500u);
 }
 
+TEST_F(Sdf, WhatIsOfAPackageThatRosDoesNotKnowSaysSo) {
+  SearchPath search_path;
+  search_path.package_folder = [](const std::string&) { return std::string(); };
+  const std::string uri = "<uri>package://nope/models/box</uri>";
+  for (const std::string& content :
+       {"<include>" + uri + "</include>", "<model name='m'><link name='l'><visual name='v'><geometry><mesh>" +
+                                              uri + "</mesh></geometry></visual></link></model>"}) {
+    const std::string error = errorOf(write("test.world", world(content)), search_path);
+    EXPECT_NE(error.find("; ROS knows no package nope, neither below ROS_PACKAGE_PATH nor in /usr/share: is "
+                         "its workspace sourced?"),
+              std::string::npos)
+        << error;
+  }
+}
+
 TEST_F(Sdf, MeshesAreFoundInMediaOfAResourcePath) {
   write("package/Media/models/land.obj", "v 0 0 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\n");
   const std::string file =

@@ -74,6 +74,45 @@ TEST_F(SdfScripts, PicturesMayBeInOtherAddressesOrInMedia) {
   EXPECT_TRUE(loaded("My/Wall", uri("model://a")).warnings.empty());
 }
 
+// OGRE's texture units modulate what is lit, unless the script says otherwise.
+TEST_F(SdfScripts, TintTheirTextureByTheirDiffuseColour) {
+  writeTexture("share/m/wall.png");
+  const auto tint = [&](const std::string& body) {
+    write("share/m/own.material", body);
+    const Scene scene = loaded("My/Wall", uri("model://m"));
+    EXPECT_EQ(look(scene).base_texture, 0) << body;
+    return look(scene).base_color.value;
+  };
+  const auto inPass = [&](const std::string& pass, const std::string& in_unit = "") {
+    return script("My/Wall", pass + "\ntexture_unit {\n texture wall.png\n " + in_unit + "\n }");
+  };
+  const auto isWhite = [](const Eigen::Array3f& color) { return (color == 1.0f).all(); };
+  // ((0.5 + 0.055) / 1.055)^2.4 and ((0.8 + 0.055) / 1.055)^2.4
+  const std::string diffuse = "ambient 0.1 0.1 0.1\ndiffuse 0.5 1 0.8 1";
+  const auto isTinted = [](const Eigen::Array3f& color) {
+    return ((color - Eigen::Array3f(0.21404f, 1.0f, 0.60383f)).abs() < 1e-4f).all();
+  };
+  EXPECT_TRUE(isTinted(tint(inPass(diffuse))));
+  for (const char* modulate : {"colour_op modulate", "colour_op_ex modulate src_texture src_current"})
+    EXPECT_TRUE(isTinted(tint(inPass(diffuse, modulate)))) << modulate;
+  EXPECT_TRUE(isTinted(tint(inPass(diffuse) + "material My/Other { technique { pass {\nlighting off } } }")));
+  EXPECT_TRUE(
+      isTinted(tint(script("My/Base", diffuse) + "material My/Wall : My/Base\n{ technique { pass {\n" +
+                    pictured("wall.png") + "\n} } }")));
+  for (const char* none : {"", "diffuse vertexcolour", "diffuse 0 0 0 1"})
+    EXPECT_TRUE(isWhite(tint(inPass(none)))) << none;
+  EXPECT_TRUE(isWhite(tint(inPass(diffuse + "\nlighting off"))));
+  for (const char* other :
+       {"colour_op replace", "colour_op add", "colour_op_ex source1 src_texture src_current"})
+    EXPECT_TRUE(isWhite(tint(inPass(diffuse, other)))) << other;
+  EXPECT_TRUE(isWhite(tint("material My/Wall { technique { pass {\n" + pictured("wall.png") +
+                           "\n}\npass {\n" + diffuse + "\n} } }")))
+      << "of another pass";
+  EXPECT_TRUE(isWhite(
+      tint("material My/Wall : Gazebo/Bricks\n{ technique { pass {\n" + pictured("wall.png") + "\n} } }")))
+      << "a colour that stands for a picture";
+}
+
 TEST_F(SdfScripts, InheritFromOtherFiles) {
   write("share/a/base.material", script("My/Base", "diffuse 0 1 0 1\n" + pictured("base.png")));
   writeTexture("share/a/base.png");

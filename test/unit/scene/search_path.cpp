@@ -43,5 +43,44 @@ TEST_F(SearchPathOfEnvironment, HasWhatIsInstalledOfGazeboNewestFirst) {
   EXPECT_TRUE(finder.find("model://m.obj", pathOf("world/w.sdf")).file.has_value());
 }
 
+class PackagesThatRosDoesNotKnow : public SceneFiles {
+ protected:
+  SearchPath searchPath() const {
+    SearchPath search_path{{pathOf("share")}};
+    search_path.package_folder = [&](const std::string& package) {
+      return package == "known" ? pathOf("known") : std::string();
+    };
+    return search_path;
+  }
+};
+
+TEST_F(PackagesThatRosDoesNotKnow, AreCalledThat) {
+  const std::string unknown = "package://nope/worlds/x.world", share = pathOf("share");
+  EXPECT_EQ(errorOf(unknown, searchPath()),
+            "there is no world " + unknown + "; it was looked for as " + share + "/nope/worlds/x.world and " +
+                share +
+                "/models/nope/worlds/x.world; ROS knows no package nope, neither below ROS_PACKAGE_PATH nor "
+                "in /usr/share: is its workspace sourced?");
+  for (const std::string other : {"package://known/x.world", "model://nope/x.world", "nope/x.world"})
+    EXPECT_EQ(errorOf(other, searchPath()).find("ROS knows"), std::string::npos) << other;
+  EXPECT_NE(ResourceFinder(searchPath(), pathOf("w.sdf"))
+                .rootsOf("package://nope/models/box")
+                .find(share + "; ROS knows no package nope, "),
+            std::string::npos);
+}
+
+TEST_F(PackagesThatRosDoesNotKnow, MayBeFoldersOfTheSearchPath) {
+  const std::string file = write("share/nope/triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(load("package://nope/triangle.obj", searchPath()).name, file);
+}
+
+TEST_F(SearchPathOfEnvironment, HasNoParentsOfAddressesThatAreNoFiles) {
+  EXPECT_EQ(errorOf("model://a/b.world"),
+            "there is no world model://a/b.world; there is no folder to look for it in");
+  write("worlds/m.obj", "v 0 0 0\n");
+  const std::string world = "file://" + pathOf("worlds/w.sdf");
+  EXPECT_TRUE(ResourceFinder({}, world).find("model://m.obj", world).file.has_value());
+}
+
 }  // namespace
 }  // namespace sunlit::scene

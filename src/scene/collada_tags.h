@@ -1,0 +1,23 @@
+/// Tags of COLLADA as they stand in its text, for what is mended before Assimp reads it.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace sunlit::scene {
+
+/// Calls use(name, tag, at) for each tag that opens an element.
+void forEachTag(
+    const std::string& text,
+    const std::function<void(const std::string& name, const std::string& tag, std::size_t at)>& use);
+
+/// Where the value of an attribute stands in its tag, and how long it is; nowhere, and 0, where there is
+/// none.
+std::pair<std::size_t, std::size_t> placeInTag(const std::string& tag, const std::string& attribute);
+
+/// Empty where there is none.
+std::string valueInTag(const std::string& tag, const std::string& attribute);
+
+}  // namespace sunlit::scene
