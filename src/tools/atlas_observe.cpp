@@ -27,7 +27,8 @@ std::string lineOf(const AtlasCondition& condition, const studio::SkyBodies& bod
   char numbers[128];
   std::snprintf(numbers, sizeof numbers, "%.6f,%.6f,%.6g", bodies.sun.apparent.azimuth().deg(),
                 bodies.sun.apparent.elevation().deg(), illuminance_lx);
-  return condition.name + ',' + textOfDate(condition.date) + ',' + condition.time.clock() + ',' + numbers + '\n';
+  return condition.name + ',' + textOfDate(condition.date) + ',' + condition.time.clock() + ',' + numbers +
+         '\n';
 }
 
 /// Of the unit's lights, those in which the pose is not whole yet.

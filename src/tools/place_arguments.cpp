@@ -87,7 +87,8 @@ void requireWeather(const studio::CommandLine& line, const sky::Weather& weather
 void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   line->group("Place, day and air");
   line->add("--site LAT,LON[,ELEVATION]", "", fieldsOf(options->site));
-  line->add("--date YYYY-MM-DD", {"date", OwnForm{textOfDate(options->date)}, "", {}, "as the time zone has it"})
+  line->add("--date YYYY-MM-DD",
+            {"date", OwnForm{textOfDate(options->date)}, "", {}, "as the time zone has it"})
       .then([options](const std::string& option, const std::string& value) {
         options->date = dateOf(option, value, options->date.timezone);
       });
