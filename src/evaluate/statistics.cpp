@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -63,13 +64,21 @@ std::size_t uniformBelow(std::mt19937_64& generator, std::size_t n) {
   return generator() % n;
 }
 
+// One of the values, of which as many lie below as above.
+double middleOf(std::vector<double> series) {
+  const auto middle = series.begin() + static_cast<std::ptrdiff_t>(series.size() / 2);
+  std::nth_element(series.begin(), middle, series.end());
+  return *middle;
+}
+
 // Means of resamples made of blocks of a series bent into a circle, so that every value is drawn equally
-// often.
+// often. By way of deviations from the value in the middle: a resample often enough of one value alone to
+// set a limit is of that of the most, and its mean is this value to the bit.
 std::vector<double> resampledMeans(const std::vector<double>& series, std::size_t block) {
   const std::size_t n = series.size();
-  const double mean = meanOf(series);
-  std::vector<double> cumulative(2 * n + 1, 0.0);  // of deviations, so that sums stay small
-  for (std::size_t i = 0; i < 2 * n; ++i) cumulative[i + 1] = cumulative[i] + (series[i % n] - mean);
+  const double middle = middleOf(series);
+  std::vector<double> cumulative(2 * n + 1, 0.0);
+  for (std::size_t i = 0; i < 2 * n; ++i) cumulative[i + 1] = cumulative[i] + (series[i % n] - middle);
   std::mt19937_64 generator(20240701);  // any fixed number; this is the paper's date
   std::vector<double> means(kResamples);
   for (double& resampled : means) {
@@ -79,7 +88,7 @@ std::vector<double> resampledMeans(const std::vector<double>& series, std::size_
       const std::size_t length = std::min(block, n - taken);
       sum += cumulative[start + length] - cumulative[start];
     }
-    resampled = mean + sum / static_cast<double>(n);
+    resampled = middle + sum / static_cast<double>(n);
   }
   return means;
 }

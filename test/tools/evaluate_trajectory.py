@@ -192,6 +192,14 @@ class EvaluateTrajectory(unittest.TestCase):
         done = run("evaluate_trajectory", "--truth", bag + ":/truth", "--estimate", bag + ":/odom", "--out", self.path("out"))
         self.assertEqual((done.returncode, self.table()["ate"]["max"]), (0, "0"))
 
+    def test_topics_may_lack_their_slash(self):
+        bag = self.write_bag("run.bag", {"odom": Odometry, "/truth": PoseStamped})
+        for named in ("odom", "/odom", "truth"):
+            done = self.evaluate(bag + ":" + named)
+            self.assertEqual((done.returncode, done.stderr, self.table()["ate"]["n"]), (0, "", "50"))
+        self.assertIn("topics of poses are: /odom (nav_msgs/Odometry), /truth", self.evaluate(bag).stderr)
+        self.assertEqual(self.evaluate(self.write_bag("one.bag", {"odom": Odometry})).returncode, 0)
+
     def test_poses_that_cannot_be_used_are_left_out_and_told_of(self):
         def spoil(i, pose):
             if i < 2:  # before it knows where it is

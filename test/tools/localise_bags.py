@@ -88,6 +88,7 @@ class LocaliseBags(unittest.TestCase):
                 pose.pose.orientation.z, pose.pose.orientation.w = math.sin(heading / 2), math.cos(heading / 2)
                 for other in (info, pose):
                     other.header.stamp = stamp
+                pose.header.frame_id = changes.get("frame", "")
                 depth_message = message(depth, "32FC1", stamp)
                 if changes.get("millimetres"):
                     depth_message = message(numpy.round(depth * 1000).astype(numpy.uint16), "16UC1", stamp)
@@ -298,9 +299,17 @@ class LocaliseBags(unittest.TestCase):
             for topic, one, stamp in bag.read_messages():
                 one.header.stamp = rospy.Time(0)
                 unstamped.write(topic, one, stamp)
-        _, done = self.localise("out", "--map", noon, "--query", self.path("unstamped.bag"), "--detectors", "sift", status=3)
-        self.assertIn("h20 at 0.000000000: all 5 images have stamp 0.000000000, so that one counts: does the driver set",
-                      done.stderr)
+        said = "h20 at 0.000000000: all 5 images have stamp 0.000000000, so that one counts: does the driver set"
+        self.assertIn(said, self.refused("--map", noon, "--query", self.path("unstamped.bag"), "--detectors", "sift"))
+        rows, done = self.localise("out", "--map", noon, "--query", self.path("unstamped.bag"), dusk, "--detectors", "sift", status=3)
+        self.assertEqual({row["query"] for row in rows}, {"dusk_h20"}, "whose poses are of one place")
+        self.assertIn("unstamped_" + said, done.stderr)
+        with rosbag.Bag(self.path("unstamped.bag")) as bag, rosbag.Bag(self.path("still.bag"), "w") as still:
+            for topic, one, stamp in bag.read_messages():
+                if topic != "/camera/pose" or stamp == rospy.Time(100):
+                    still.write(topic, one, stamp)
+        _, done = self.localise("still", "--map", noon, "--query", self.path("still.bag"), "--detectors", "sift", status=3)
+        self.assertIn(said, done.stderr)
 
     def test_what_lacks_a_part_is_named_and_the_rest_goes_on(self):
         noon = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0, 3.0], without={("depth/image_raw", 1), ("pose", 2)})
@@ -314,6 +323,97 @@ class LocaliseBags(unittest.TestCase):
                           ("h20", "query", "102.000000000", "no camera/pose of this stamp")])
         self.assertIn("4 images could not be used", done.stderr)
         self.assertIn("h12 at 101.000000000: no camera/depth", done.stderr)
+
+    def append_pose(self, bag, at, x, received=None, frame=""):
+        """Another pose of stamp `at` that looks as those of write() do, in the bag where `received` puts it."""
+        pose = PoseStamped()
+        pose.header.stamp, pose.header.frame_id = rospy.Time(at), frame
+        pose.pose.position.x = x
+        pose.pose.orientation.z, pose.pose.orientation.w = math.sin(math.pi / 4), math.cos(math.pi / 4)
+        with rosbag.Bag(bag, "a") as opened:
+            opened.write("/camera/pose", pose, rospy.Time.from_sec(received or at))
+
+    def test_an_image_of_whose_stamp_two_poses_differ_is_of_neither_in_whatever_order_they_stand(self):
+        fault = "two_places: two poses of this stamp are 50 m and 0 deg apart: are these two recordings?"
+        for received in (99.0, 200.0):
+            noon = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0, 3.0])
+            dusk = self.write("dusk.bag", "h20/", [0.5, 1.5, 2.5])
+            self.append_pose(noon, 102, 52.0, received)
+            self.append_pose(dusk, 101, 51.5, received)
+            self.append_pose(dusk, 100, 0.509, received)  # sent twice
+            rows, done = self.localise("out%d" % received, "--map", noon, "--query", dusk, "--detectors", "sift", "--map-every",
+                                       "0", status=3)
+            self.assertEqual([(row["pose"], row["status"]) for row in rows], [("0", "localised"), ("2", "localised")])
+            self.assertTrue(all(float(row["error_m"]) < 0.05 for row in rows), rows)
+            self.assertEqual([tuple(row.values()) for row in self.rows("out%d" % received, "localisation_problems.csv")],
+                             [("h12", "map", "102.000000000", fault), ("h20", "query", "101.000000000", fault)])
+            self.assertIn("3 key frames", done.stdout)
+            self.assertIn("2 images could not be used", done.stderr)
+
+    def test_nor_is_a_pose_taken_between_others_of_which_one_is_two(self):
+        theirs = self.write_foreign("theirs.bag", [0.0032, 1.0047, 2.0061])
+        other = self.write_foreign("other.bag", [0.5013, 1.4988])
+        with rosbag.Bag(other, "a") as bag:
+            pose = TransformStamped()
+            pose.header.stamp = rospy.Time.from_sec(100.51)
+            pose.transform.translation.y, pose.transform.rotation.w = 3.0, 1.0
+            bag.write("/vicon/camera", pose, rospy.Time(300))
+        self.localise("out", "--map", theirs, "--query", other, "--stamp-tolerance", "0.01", *self.FOREIGN, status=3)
+        self.assertEqual([row["fault"] for row in self.rows("out", "localisation_problems.csv")],
+                         ["two_places: beside it, at 100.510000000: two poses of this stamp are 3.04 m and 90 deg apart: are these "
+                          "two recordings?"])
+
+    def test_depth_that_comes_twice_is_counted(self):
+        noon, dusk = self.bags()
+        with rosbag.Bag(noon, "a") as bag:
+            bag.write("/camera/depth/image_raw", message(numpy.ones((HEIGHT, WIDTH), numpy.float32), "32FC1", rospy.Time(103)),
+                      rospy.Time(300))
+        _, done = self.localise("out", "--map", noon, "--query", dusk, "--detectors", "sift")
+        self.assertIn("h12: 1 pictures of depth left out, whose stamps repeat\n", done.stdout)
+
+    def test_poses_of_other_frames_are_warned_of(self):
+        means = ": errors mean nothing unless these are one frame"
+        noon = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0], frame="map")
+        dusk = self.write("dusk.bag", "h20/", [0.5, 1.5], frame="/odom")
+        same = self.write("same.bag", "h16/", [0.5, 1.5], frame="/map")
+        none = self.write("none.bag", "h18/", [0.5, 1.5])
+        _, done = self.localise("told", "--map", noon, "--query", dusk, same, none, "--detectors", "sift", "--map-every", "0")
+        said = "poses of /camera/pose of %s are in the frame odom, those of /camera/pose of %s in map%s" % (dusk, noon, means)
+        self.assertEqual(done.stderr, "warning: %s\n" % said)
+        self.assertEqual([tuple(row.values()) for row in self.rows("told", "localisation_problems.csv")],
+                         [("h20", "query", "100.000000000", "other_frame: " + said)])
+        self.append_pose(same, 101, 1.5, frame="world")  # in one topic
+        _, done = self.localise("mixed", "--map", noon, "--query", same, "--detectors", "sift", "--map-every", "0")
+        self.assertIn("poses of /camera/pose of %s are in the frame world" % same, done.stderr)
+        # Each drive is followed in a frame of its own.
+        follow = ["evaluate_bags", "--detectors", "sift", "--out", self.path("followed"), "--odometry", noon, dusk]
+        done = run(*follow)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = run(*follow, same)
+        self.assertEqual((done.returncode, done.stderr), (0, "warning: poses of /camera/pose of %s are in the frame world, others "
+                                                             "in map%s\n" % (same, means)))
+
+    def without_slashes(self, name):
+        """As rosbag.Bag.write("h12/camera/image_raw", …) calls topics."""
+        bare = self.path("bare_" + os.path.basename(name))
+        with rosbag.Bag(bare, "w") as written, rosbag.Bag(name) as bag:
+            for topic, one, stamp in bag.read_messages():
+                written.write(topic[1:], one, stamp)
+        return bare
+
+    def test_topics_may_lack_their_slash(self):
+        noon, dusk = self.bags()
+        self.localise("usual", "--map", noon, "--query", dusk, "--detectors", "sift")
+        self.localise("bare", "--map", self.without_slashes(noon), "--query", self.without_slashes(dusk) + ":h20", "--detectors",
+                      "sift")
+        name = os.path.join("%s", "localisation.csv")
+        usual, bare = (pathlib.Path(self.path(name % out)).read_bytes() for out in ("usual", "bare"))
+        self.assertEqual(bare, usual)
+        theirs = self.without_slashes(self.write_foreign("theirs.bag", [0.0032, 1.0047, 2.0061]))
+        other = self.without_slashes(self.write_foreign("other.bag", [0.5013, 1.4988]))
+        for out, topics in (("slash", self.FOREIGN), ("none", [word.lstrip("/") for word in self.FOREIGN])):
+            rows, _ = self.localise(out, "--map", theirs, "--query", other, "--stamp-tolerance", "0.01", *topics)
+            self.assertEqual([row["status"] for row in rows], ["localised"] * 2)
 
     def test_a_detector_that_throws_at_pictures_ends_nothing(self):
         noon, _ = self.bags()

@@ -83,6 +83,10 @@ void Evaluation::addCamera(std::size_t stream, const Told<ViewCamera>& camera) {
   state_->addCamera(stream, camera);
 }
 
+void Evaluation::addPoseProblem(std::int64_t stamp_ns, const std::string& kind, const std::string& reason) {
+  state_->addPoseProblem(stamp_ns, kind, reason);
+}
+
 void Evaluation::compareMethods(const StopToken& stop) {
   state_->compareMethods(stop);
 }

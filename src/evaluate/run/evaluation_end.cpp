@@ -92,10 +92,13 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
   outcome.summary = summarise(layout_, records_);
   writeSummary(file("summary.csv"), outcome.summary);
   if (isVerifying()) outcome.verified = writeVerifiedSummaries();
-  const std::size_t left_out = record_files_->finish(options_.streams);
-  if (left_out > 0 && callbacks_.note)
-    callbacks_.note(file("path.csv") + ": " + std::to_string(left_out) +
-                    " poses of stamps without an image left out");
+  const auto is_of_two = [this](std::int64_t stamp) { return !places_.fault(stamp).empty(); };
+  const LeftOutPlaces left_out = record_files_->finish(options_.streams, is_of_two);
+  for (const auto& [count, what] : {std::pair{left_out.without_image, "stamps without an image"},
+                                    {left_out.of_two, "stamps of two places"}}) {
+    if (count > 0 && callbacks_.note)
+      callbacks_.note(file("path.csv") + ": " + std::to_string(count) + " poses of " + what + " left out");
+  }
   problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
   writeRunFile(file("run.yaml"), options_, &outcome, nullptr);
 }

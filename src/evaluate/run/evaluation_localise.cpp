@@ -115,6 +115,12 @@ void Evaluation::State::addTruePose(std::int64_t stamp_ns, const Told<Eigen::Iso
   addTruth(stamp_ns, [&](GroundTruth& truth) { truth.addPose(stamp_ns, pose); });
 }
 
+void Evaluation::State::addPoseProblem(std::int64_t stamp_ns, const std::string& kind,
+                                       const std::string& reason) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!is_finished_) report({kind, std::nullopt, stamp_ns, "pose", reason});
+}
+
 void Evaluation::State::addCamera(std::size_t stream, const Told<ViewCamera>& camera) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_ || !observer_) return;

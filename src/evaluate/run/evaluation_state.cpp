@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sunlit/evaluate/same_place.h"
+
 namespace sunlit::evaluate {
 namespace {
 

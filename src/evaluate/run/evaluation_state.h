@@ -43,6 +43,7 @@ class Evaluation::State {
   void addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth);
   void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
   void addCamera(std::size_t stream, const Told<ViewCamera>& camera);
+  void addPoseProblem(std::int64_t stamp_ns, const std::string& kind, const std::string& reason);
   LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
   void compareMethods(const StopToken& stop);
   void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
@@ -161,7 +162,6 @@ class Evaluation::State {
   FramesLayout layout_;
   FramesLayout verified_layout_;  // of the detectors verified
   std::vector<std::pair<std::size_t, std::size_t>> pair_streams_;
-
   mutable std::mutex mutex_;
   mutable std::mutex callback_mutex_;
   PoseIndex poses_;

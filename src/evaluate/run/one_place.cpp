@@ -1,8 +1,6 @@
 #include "evaluate/run/one_place.h"
 
-#include <cstdio>
-
-#include "sunlit/quantity/angle.h"
+#include "sunlit/evaluate/same_place.h"
 
 namespace sunlit::evaluate {
 
@@ -17,16 +15,9 @@ bool OnePlace::isBroken(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from
     return false;
   }
   if (faults_.count(stamp_ns) != 0) return false;
-  const double metres = (map_from_optical.translation() - first->translation()).norm();
-  const Eigen::Matrix3d turned = first->linear().transpose() * map_from_optical.linear();
-  const double degrees = Eigen::AngleAxisd(turned).angle() / kRadPerDeg;
-  if (metres <= kSamePlace_m && degrees <= kSamePlace_deg) return false;
-  char text[128];
-  std::snprintf(text, sizeof text,
-                "two poses of this stamp are %.3g m and %.3g deg apart: are these two recordings?", metres,
-                degrees);
-  faults_.emplace(stamp_ns, text);
-  return true;
+  const std::string apart = twoPlaces(*first, map_from_optical);
+  if (!apart.empty()) faults_.emplace(stamp_ns, apart);
+  return !apart.empty();
 }
 
 void OnePlace::noteImage(std::int64_t stamp_ns) {

@@ -11,13 +11,6 @@
 
 namespace sunlit::evaluate {
 
-/// Two poses of one stamp are of one place where they differ by no more than either. Pictures of one pose are
-/// compared point by point: what is 5 m away moves by about a pixel of our usual camera (640 px, 60°) for
-/// either of these, a third of the 3 px within which a match counts as right. Poses that are sent twice
-/// differ by rounding alone, those of two drives along one road by far more.
-constexpr double kSamePlace_m = 0.01;
-constexpr double kSamePlace_deg = 0.1;
-
 /// The poses that came of each stamp. Two recordings of which stamps coincide have one each, and their images
 /// are of different places: nobody can tell which is whose.
 class OnePlace {

@@ -1,5 +1,9 @@
 #include "evaluate/run/path_file.h"
 
+#include <filesystem>
+#include <set>
+
+#include "evaluate/run/record_files.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -19,11 +23,14 @@ PathFile::PathFile(const std::string& folder, const PoseIndex& poses)
   read(folder);
 }
 
+// A run that was killed had no time to take out places of stamps that problems.csv names.
 void PathFile::read(const std::string& folder) {
+  std::set<std::int64_t> of_two;
+  for (const auto& [stamp, pair] : pairsOfTwoPlaces(folder)) of_two.insert(stamp);
   forEachCsvRow(folder + "/path.csv", kHeader, [&](const std::vector<std::string>& f) {
     const PlaceRecord place{parseStamp(f[1]), parseNumber(f[2]), parseNumber(f[3]), parseNumber(f[4]),
                             parseNumber(f[5])};
-    taken_up_[place.stamp_ns] = place;
+    if (of_two.count(place.stamp_ns) == 0) taken_up_[place.stamp_ns] = place;
   });
   if (taken_up_.empty()) return;
   std::string lines;
@@ -74,13 +81,23 @@ void PathFile::append(const PlaceRecord& place) {
   file_.append(lineOf(0, place));  // finish() knows the pose
 }
 
-void PathFile::write(const std::string& lines) {
+void PathFile::close() {
   file_.close();
   is_open_ = false;
+}
+
+// It may hold places that came while images did, and do not count.
+void PathFile::remove() {
+  close();
+  std::filesystem::remove(path_);
+}
+
+void PathFile::write(const std::string& lines) {
+  close();
   image::writeFileAtomically(path_, std::string(kHeader) + "\n" + lines);
 }
 
-std::size_t PathFile::finish() {
+LeftOutPlaces PathFile::finish(const std::function<bool(std::int64_t)>& is_of_two_places) {
   std::map<std::int64_t, PlaceRecord> by_pose;
   const auto put = [&](const PlaceRecord& place) {
     const std::optional<std::int64_t> pose = poses_.known(place.stamp_ns);
@@ -90,22 +107,26 @@ std::size_t PathFile::finish() {
     if (!is_first && poses_.isNearer(place.stamp_ns, held->second.stamp_ns)) held->second = place;
     return true;
   };
+  std::set<std::int64_t> of_two;
+  const auto is_of_two = [&](const PlaceRecord& place) {
+    if (!is_of_two_places(place.stamp_ns)) return false;
+    of_two.insert(place.stamp_ns);
+    return true;
+  };
   std::map<std::int64_t, PlaceRecord> by_rank;
   std::int64_t rank = 0;
   for (const auto& item : taken_up_) {
-    if (!put(item.second)) by_rank.emplace(rank, item.second);
+    if (!is_of_two(item.second) && !put(item.second)) by_rank.emplace(rank, item.second);
     ++rank;
   }
   for (const auto& item : found_) {
-    if (item.second && !put(*item.second)) ++left_out_;
+    if (item.second && !is_of_two(*item.second) && !put(*item.second)) ++left_out_;
   }
   by_pose.merge(by_rank);
-  if (!by_pose.empty()) {
-    std::string lines;
-    for (const auto& [pose, place] : by_pose) lines += lineOf(pose, place);
-    write(lines);
-  }
-  return left_out_ + waiting_.size();
+  std::string lines;
+  for (const auto& [pose, place] : by_pose) lines += lineOf(pose, place);
+  by_pose.empty() ? remove() : write(lines);
+  return {left_out_ + waiting_.size(), of_two.size()};
 }
 
 }  // namespace sunlit::evaluate

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,6 +14,12 @@
 #include "sunlit/evaluate/run/evaluation.h"
 
 namespace sunlit::evaluate {
+
+/// Places that are not in the file.
+struct LeftOutPlaces {
+  std::size_t without_image = 0;
+  std::size_t of_two = 0;  ///< of a stamp of which poses of two places came
+};
 
 /// A place counts where an image has its stamp; with a frame rate, of those that round to the pose of an
 /// image the nearest to the stamp that the rate gives it. It may come before the image, or after. The file
@@ -26,12 +33,14 @@ class PathFile {
   void add(const PlaceRecord& place);
   /// An image of this stamp was taken.
   void noteImage(std::int64_t stamp_ns);
-  /// How many places were left out, since they are of no image.
-  std::size_t finish();
+  /// Leaves out those of stamps of two places: nobody can tell which is that of the images.
+  LeftOutPlaces finish(const std::function<bool(std::int64_t)>& is_of_two_places);
 
  private:
   void read(const std::string& folder);
   void append(const PlaceRecord& place);
+  void close();
+  void remove();
   void write(const std::string& lines);
   std::optional<std::int64_t> keyOf(std::int64_t stamp_ns) const;
 
@@ -42,7 +51,7 @@ class PathFile {
   std::map<std::int64_t, PlaceRecord> taken_up_;              // by stamp, of earlier runs
   std::map<std::int64_t, std::optional<PlaceRecord>> found_;  // of images, by keyOf(); empty: none has come
   Recent<PlaceRecord> waiting_;                               // for an image, by keyOf()
-  std::size_t left_out_ = 0;                                  // but those that wait
+  std::size_t left_out_ = 0;                                  // of no image, but those that wait
 };
 
 }  // namespace sunlit::evaluate

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sunlit/evaluate/files/stream_name.h"
+#include "sunlit/evaluate/same_place.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -79,9 +80,10 @@ void RecordFiles::writeCaptures(const std::vector<std::string>& streams) {
   captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
 }
 
-std::size_t RecordFiles::finish(const std::vector<std::string>& streams) {
+LeftOutPlaces RecordFiles::finish(const std::vector<std::string>& streams,
+                                  const std::function<bool(std::int64_t)>& is_of_two_places) {
   if (!captures_.empty()) writeCaptures(streams);
-  return path_.finish();
+  return path_.finish(is_of_two_places);
 }
 
 std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::string& folder) {

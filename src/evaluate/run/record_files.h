@@ -30,8 +30,9 @@ class RecordFiles {
   void add(const PlaceRecord& place) { path_.add(place); }
   /// An image of this stamp came.
   void noteImage(std::int64_t stamp_ns) { path_.noteImage(stamp_ns); }
-  /// How many places were left out, since they are of no image.
-  std::size_t finish(const std::vector<std::string>& streams);
+  /// As PathFile::finish().
+  LeftOutPlaces finish(const std::vector<std::string>& streams,
+                       const std::function<bool(std::int64_t)>& is_of_two_places);
 
  private:
   void read(const std::string& folder, PoseIndex& poses);
@@ -53,10 +54,7 @@ struct Problem {
   std::string reason;
 };
 
-/// Problem::kind of images of one stamp that were taken at two places.
-inline constexpr const char* kTwoPlaces = "two_places";
-
-/// The same of an image of a pose that is none of those expected.
+/// Problem::kind of an image of a pose that is none of those expected.
 inline constexpr const char* kUnexpected = "unexpected";
 
 /// Poses by the stamps of images that problems.csv of `folder` names, but of unexpected ones.

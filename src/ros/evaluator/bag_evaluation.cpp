@@ -15,6 +15,7 @@
 #include "ros/evaluator/bag_message.h"
 #include "ros/evaluator/bag_topics.h"
 #include "ros/evaluator/folder_lock.h"
+#include "ros/evaluator/pose_frames.h"
 #include "ros/evaluator/progress_log.h"
 #include "sunlit/ros/topic_names.h"
 
@@ -81,24 +82,29 @@ class BagSource {
     if (!cameras_.empty()) wanted.push_back(root + topics::kDepth);
     for (const std::string& path : options.bags) {
       bags_.push_back(openBag(path));
-      view_.addQuery(*bags_.back(), rosbag::TopicQuery(wanted));
+      view_.addQuery(*bags_.back(), topicQuery(wanted));
+      rosbag::View places(*bags_.back(), topicQuery({place_topic_}));
+      for (const rosbag::ConnectionInfo* connection : places.getConnections())
+        bags_of_places_[connection->header.get()] = path;
     }
   }
 
   void feed(evaluate::Evaluation& evaluation) {
     for (const rosbag::MessageInstance& instance : view_) {
-      if (const auto found = images_.find(instance.getTopic()); found != images_.end()) {
+      const std::string topic = withSlash(instance.getTopic());
+      if (const auto found = images_.find(topic); found != images_.end()) {
         feedImage(evaluation, found->second, instance);
-      } else if (const auto capture = captures_.find(instance.getTopic()); capture != captures_.end()) {
+      } else if (const auto capture = captures_.find(topic); capture != captures_.end()) {
         evaluation.addCapture(capture->second, captureOf(*messageOf<Capture>(instance)));
-      } else if (const auto camera = cameras_.find(instance.getTopic()); camera != cameras_.end()) {
+      } else if (const auto camera = cameras_.find(topic); camera != cameras_.end()) {
         evaluation.addCamera(camera->second,
                              cameraOf(*messageOf<sensor_msgs::CameraInfo>(instance), topics::kImage));
-      } else if (instance.getTopic() != place_topic_) {
+      } else if (topic != place_topic_) {
         const auto depth = messageOf<sensor_msgs::Image>(instance);
         evaluation.addDepth(nanosecondsOf(depth->header.stamp), depthOf(*depth, max_pixels_));
       } else {
         const auto message = messageOf<geometry_msgs::PoseStamped>(instance);
+        noteFrame(evaluation, message->header, bags_of_places_.at(instance.getConnectionHeader().get()));
         evaluation.addPlace(placeOf(*message));
         evaluation.addTruePose(nanosecondsOf(message->header.stamp), truePoseOf(*message));
       }
@@ -118,6 +124,13 @@ class BagSource {
                              ", not sensor_msgs/Image or sensor_msgs/CompressedImage");
   }
 
+  void noteFrame(evaluate::Evaluation& evaluation, const std_msgs::Header& header, const std::string& bag) {
+    const std::string warning = frames_.note(header.frame_id, place_topic_ + " of " + bag);
+    if (warning.empty()) return;
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    evaluation.addPoseProblem(nanosecondsOf(header.stamp), kOtherFrame, warning);
+  }
+
   static void feedDecoded(evaluate::Evaluation& evaluation, std::size_t stream,
                           const std_msgs::Header& header, const DecodedImage& decoded) {
     const std::int64_t stamp_ns = nanosecondsOf(header.stamp);
@@ -131,12 +144,14 @@ class BagSource {
   }
 
   std::size_t max_pixels_;
+  PoseFrames frames_;
   std::vector<std::unique_ptr<rosbag::Bag>> bags_;
   rosbag::View view_;
   std::map<std::string, std::size_t> images_;
   std::map<std::string, std::size_t> captures_;
   std::map<std::string, std::size_t> cameras_;  ///< where it is localised
   std::string place_topic_;
+  std::map<const ros::M_string*, std::string> bags_of_places_;  ///< by what messages bear of a connection
   ProgressLog log_;
 };
 

@@ -37,7 +37,7 @@ evaluate::OdometryRow rowOf(const evaluate::Trajectory& truth, const evaluate::T
 class BagOdometry {
  public:
   explicit BagOdometry(const BagLocalisationOptions& options)
-      : options_(options), source_({options.topics, options.intake, options.output_dir}) {}
+      : options_(options), source_({options.topics, options.intake, options.output_dir, true}) {}
 
   void follow(const BagStream& stream) {
     const auto views = source_.open(stream);

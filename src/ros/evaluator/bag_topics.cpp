@@ -53,10 +53,23 @@ std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
   return bag;
 }
 
+std::string withSlash(const std::string& topic) {
+  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
+rosbag::TopicQuery topicQuery(const std::vector<std::string>& topics) {
+  std::vector<std::string> both;
+  for (const std::string& topic : topics) {
+    both.push_back(withSlash(topic));
+    both.push_back(both.back().substr(1));
+  }
+  return rosbag::TopicQuery(both);
+}
+
 std::string rootOf(const std::string& name_space) {
   std::string root = name_space;
   if (root.empty() || root.back() != '/') root += '/';
-  return root.front() == '/' ? root : "/" + root;
+  return withSlash(root);
 }
 
 std::set<std::string> topicsIn(const std::vector<std::string>& bags) {
@@ -64,7 +77,8 @@ std::set<std::string> topicsIn(const std::vector<std::string>& bags) {
   for (const std::string& path : bags) {
     const auto bag = openBag(path);
     rosbag::View view(*bag);
-    for (const rosbag::ConnectionInfo* connection : view.getConnections()) topics.insert(connection->topic);
+    for (const rosbag::ConnectionInfo* connection : view.getConnections())
+      topics.insert(withSlash(connection->topic));
   }
   return topics;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <rosbag/bag.h>
+#include <rosbag/query.h>
 
 #include <memory>
 #include <set>
@@ -17,9 +18,16 @@ std::unique_ptr<rosbag::Bag> openBag(const std::string& path);
 /// "/" or "/name/…/".
 std::string rootOf(const std::string& name_space);
 
+/// As topics are called here: some tools write bags whose topics lack the leading slash.
+std::string withSlash(const std::string& topic);
+
+/// Of these topics, with their slash or without.
+rosbag::TopicQuery topicQuery(const std::vector<std::string>& topics);
+
 /// "a, b", or "nothing".
 std::string topicsInWords(const std::set<std::string>& topics);
 
+/// Each with its slash.
 std::set<std::string> topicsIn(const std::vector<std::string>& bags);
 
 /// Names, in alphabetical order, of which the bags hold <name_space>/<name>/camera/image_raw, or that with

@@ -33,7 +33,7 @@ struct NamedTopic {
 NamedTopic namedTopic(const std::string& named) {
   const std::size_t colon = named.rfind(".bag:");
   if (colon == std::string::npos || std::filesystem::exists(named)) return {named, ""};
-  return {named.substr(0, colon + 4), named.substr(colon + 5)};
+  return {named.substr(0, colon + 4), withSlash(named.substr(colon + 5))};
 }
 
 geometry_msgs::Pose poseOf(const geometry_msgs::Transform& transform) {
@@ -62,8 +62,8 @@ std::string topicIn(const rosbag::Bag& bag, const NamedTopic& named) {
   rosbag::View view(bag);
   std::map<std::string, std::string> found;  // types by topic
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    if (connection->topic == named.topic || bringsPoses(connection->datatype))
-      found[connection->topic] = connection->datatype;
+    const std::string topic = withSlash(connection->topic);
+    if (topic == named.topic || bringsPoses(connection->datatype)) found[topic] = connection->datatype;
   }
   if (!named.topic.empty() && found.count(named.topic) > 0) return named.topic;
   if (named.topic.empty() && found.size() == 1) return found.begin()->first;
@@ -93,13 +93,13 @@ std::optional<StampedPose> stampedPoseOf(const PoseMessage& message, const std::
 std::vector<PoseMessage> messagesOf(const nav_msgs::Path& path) {
   std::vector<PoseMessage> messages;
   for (const geometry_msgs::PoseStamped& pose : path.poses)
-    messages.push_back({nanosecondsOf(pose.header.stamp), pose.pose});
+    messages.push_back({nanosecondsOf(pose.header.stamp), pose.pose, pose.header.frame_id});
   return messages;
 }
 
 std::vector<PoseMessage> messagesIn(const rosbag::Bag& bag, const std::string& topic) {
   std::vector<PoseMessage> messages;
-  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  rosbag::View view(bag, topicQuery({topic}));
   for (const rosbag::MessageInstance& instance : view) {
     if (const auto path = instance.instantiate<nav_msgs::Path>()) {
       messages = messagesOf(*path);
@@ -114,7 +114,7 @@ std::vector<PoseMessage> messagesIn(const rosbag::Bag& bag, const std::string& t
 
 PoseMessage poseMessageOf(const rosbag::MessageInstance& instance) {
   const auto made = [](const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
-    return PoseMessage{nanosecondsOf(header.stamp), pose};
+    return PoseMessage{nanosecondsOf(header.stamp), pose, header.frame_id};
   };
   if (const auto message = instance.instantiate<geometry_msgs::PoseStamped>())
     return made(message->header, message->pose);

@@ -15,6 +15,7 @@ namespace sunlit::ros_interface {
 struct PoseMessage {
   std::int64_t stamp_ns = 0;
   geometry_msgs::Pose pose;
+  std::string frame;  ///< that it stands in, as sent
 };
 
 /// Of a geometry_msgs/PoseStamped, PoseWithCovarianceStamped or TransformStamped, or a nav_msgs/Odometry.

@@ -4,6 +4,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sunlit/Capture.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -14,9 +15,10 @@
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/images.h"
 #include "ros/conversions/received_images.h"
+#include "ros/conversions/time.h"
 #include "ros/evaluator/bag_message.h"
 #include "ros/evaluator/bag_topics.h"
-#include "ros/evaluator/bag_trajectory.h"
+#include "sunlit/evaluate/same_place.h"
 #include "sunlit/evaluate/trajectory/trajectory.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/ros/topic_names.h"
@@ -96,6 +98,7 @@ struct BagViews::Index {
   ByStamp<MessageInstance> images, depths;
   ByStamp<sensor_msgs::CameraInfo> cameras;
   ByStamp<geometry_msgs::Pose> poses;
+  ByStamp<std::string> two_places;  // how far apart poses of one stamp are
   ByStamp<std::size_t> numbers;
 
   void name(const BagStream& stream, const ViewTopics& topics, const std::string& transport);
@@ -134,25 +137,38 @@ void BagViews::readIndex() {
   Index& index = *index_;
   const std::vector<std::string> wanted = {index.images_topic, index.infos_topic, index.captures_topic,
                                            index.depths_topic, index.poses_topic};
-  index.view.addQuery(*bag_, rosbag::TopicQuery(wanted));
+  index.view.addQuery(*bag_, topicQuery(wanted));
   for (const MessageInstance& instance : index.view) {
-    const std::string& topic = instance.getTopic();
+    const std::string topic = withSlash(instance.getTopic());
     if (topic == index.images_topic) {
       requireImage(instance, true);
       if (!index.images.emplace(stampOf(instance), instance).second) ++repeated_;
     } else if (topic == index.depths_topic) {
       requireImage(instance, false);
-      index.depths.emplace(stampOf(instance), instance);
+      if (!index.depths.emplace(stampOf(instance), instance).second) ++repeated_depths_;
     } else if (topic == index.infos_topic) {
       const auto message = messageOf<sensor_msgs::CameraInfo>(instance);
       index.cameras.emplace(nanosecondsOf(message->header.stamp), *message);
     } else if (topic == index.poses_topic) {
-      const PoseMessage message = poseMessageOf(instance);
-      index.poses.emplace(message.stamp_ns, message.pose);
+      addPose(poseMessageOf(instance));
     } else {
       const auto message = messageOf<Capture>(instance);
       index.numbers.emplace(nanosecondsOf(message->header.stamp), message->pose_index);
     }
+  }
+}
+
+void BagViews::addPose(const PoseMessage& message) {
+  const auto is_its = [&](const auto& frame) { return frame.first == message.frame; };
+  if (std::none_of(frames_.begin(), frames_.end(), is_its))
+    frames_.emplace_back(message.frame, message.stamp_ns);
+  const auto [first, is_first] = index_->poses.emplace(message.stamp_ns, message.pose);
+  if (is_first) return;
+  try {
+    const std::string apart = evaluate::twoPlaces(fromPose(first->second), fromPose(message.pose));
+    if (!apart.empty()) index_->two_places.emplace(message.stamp_ns, apart);
+  } catch (const std::invalid_argument&) {
+    // One that is none: the first is asked for what it is.
   }
 }
 
@@ -200,20 +216,35 @@ evaluate::ViewCamera BagViews::cameraAt(std::int64_t stamp_ns) const {
 
 Eigen::Isometry3d BagViews::poseAt(std::int64_t stamp_ns) const {
   const ByStamp<geometry_msgs::Pose>& poses = index_->poses;
+  const auto requireOnePlace = [&](std::int64_t pose_ns) {
+    const auto apart = index_->two_places.find(pose_ns);
+    if (apart == index_->two_places.end()) return;
+    const std::string beside =
+        pose_ns == stamp_ns ? "" : "beside it, at " + textOfStamp(timeOf(pose_ns)) + ": ";
+    throw std::invalid_argument(evaluate::kTwoPlaces + (": " + beside) + apart->second);
+  };
   const auto after = poses.lower_bound(stamp_ns);
-  if (after != poses.end() && after->first == stamp_ns) return fromPose(after->second);
+  if (after != poses.end() && after->first == stamp_ns) {
+    requireOnePlace(stamp_ns);
+    return fromPose(after->second);
+  }
   const std::int64_t tolerance_ns = toleranceOf(topics_);
   const bool is_between = after != poses.begin() && after != poses.end() &&
                           after->first - stamp_ns <= tolerance_ns &&
                           stamp_ns - std::prev(after)->first <= tolerance_ns;
   if (!is_between)
     throw std::invalid_argument(lackOf(calledOr(topics_.poses, topics::kPose), poses, stamp_ns));
-  const auto stamped = [](const auto& entry) {
+  const auto stamped = [&](const auto& entry) {
+    requireOnePlace(entry.first);
     const Eigen::Isometry3d pose = fromPose(entry.second);
     return evaluate::StampedPose{entry.first, pose.translation(), Eigen::Quaterniond(pose.linear())};
   };
   const evaluate::StampedPose pose = interpolated(stamped(*std::prev(after)), stamped(*after), stamp_ns);
   return Eigen::Translation3d(pose.position) * pose.orientation;
+}
+
+std::string BagViews::posesTopic() const {
+  return index_->poses_topic;
 }
 
 std::string BagViews::lackOfDepth(const Entry& entry) const {

@@ -9,9 +9,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ros/evaluator/bag_streams.h"
+#include "ros/evaluator/bag_trajectory.h"
 #include "ros/evaluator/image_intake.h"
 #include "ros/evaluator/view_topics.h"
 #include "sunlit/evaluate/posed_view.h"
@@ -37,8 +39,8 @@ class BagViews {
   };
 
   /// Reads the bag once, keeping no pixels. Of several images, or other messages, of one stamp the first
-  /// counts. Throws std::runtime_error for a bag that cannot be read, that holds no image of the stream, or
-  /// whose messages are of another kind.
+  /// counts; poses of it that are two places make a fault. Throws std::runtime_error for a bag that cannot be
+  /// read, that holds no image of the stream, or whose messages are of another kind.
   BagViews(const BagStream& stream, const ViewTopics& topics, const IntakeOptions& intake);
   ~BagViews();
 
@@ -47,6 +49,10 @@ class BagViews {
   /// Of which pictures have one place at one number: the bag, or the stream where captures do not number it.
   const std::string& drive() const { return drive_; }
   std::size_t repeated() const { return repeated_; }  ///< images left out, of a stamp that was there
+  std::size_t repeatedDepths() const { return repeated_depths_; }  ///< likewise
+  /// Of poses, each once, in the order in which they first come; with the stamp of the first.
+  const std::vector<std::pair<std::string, std::int64_t>>& frames() const { return frames_; }
+  std::string posesTopic() const;
   /// "no camera/depth/image_raw of this stamp".
   std::string lackOfDepth(const Entry& entry) const;
 
@@ -60,6 +66,7 @@ class BagViews {
  private:
   struct Index;
   void readIndex();
+  void addPose(const PoseMessage& message);
   void makeEntries();
   Entry entryOf(std::int64_t stamp_ns) const;
   evaluate::ViewCamera cameraAt(std::int64_t stamp_ns) const;
@@ -74,6 +81,8 @@ class BagViews {
   std::vector<Entry> entries_;
   std::string drive_;
   std::size_t repeated_ = 0;
+  std::size_t repeated_depths_ = 0;
+  std::vector<std::pair<std::string, std::int64_t>> frames_;
 };
 
 }  // namespace sunlit::ros_interface

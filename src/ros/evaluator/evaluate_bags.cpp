@@ -60,7 +60,10 @@ void completeLocalisation(Options* options) {
   if (!options->evaluation.evaluation.merge.empty())
     throw std::invalid_argument("--merge is for differences alone");
   localisation.output_dir = options->evaluation.evaluation.output_dir;
-  localisation.topics.name_space = options->evaluation.name_space;
+  ViewTopics& topics = localisation.topics;
+  topics.name_space = options->evaluation.name_space;
+  for (std::string* topic : {&topics.images, &topics.camera_info, &topics.depth, &topics.poses})
+    *topic = withSlash(*topic);
   if (options->read) localisation.intake = options->read->intake;
 }
 

@@ -43,6 +43,7 @@ ImageIntake::ImageIntake(const ros::NodeHandle& node, const IntakeOptions& optio
       options_(options),
       evaluation_(evaluation),
       last_image_s_(ros::SteadyTime::now().toSec()),
+      places_topic_(node_.resolveName(topics::kPose)),
       streams_(evaluation.options().streams.size()) {
   for (std::size_t s = 0; s < streams_.size(); ++s) subscribe(s);
   places_ = node_.subscribe<geometry_msgs::PoseStamped>(
@@ -50,11 +51,19 @@ ImageIntake::ImageIntake(const ros::NodeHandle& node, const IntakeOptions& optio
         guarded([&] {
           evaluation_.addPlace(placeOf(*message));
           evaluation_.addTruePose(nanosecondsOf(message->header.stamp), truePoseOf(*message));
-          const std::lock_guard<std::mutex> lock(frame_mutex_);
-          frame_of_poses_ = message->header.frame_id;
+          noteFrame(message->header);
         });
       });
   if (!evaluation_.options().localisation.map.empty()) subscribeToTruth();
+}
+
+void ImageIntake::noteFrame(const std_msgs::Header& header) {
+  const std::lock_guard<std::mutex> lock(frame_mutex_);
+  frame_of_poses_ = header.frame_id;
+  const std::string warning = frames_.note(header.frame_id, places_topic_);
+  if (warning.empty()) return;
+  ROS_WARN("%s", warning.c_str());
+  evaluation_.addPoseProblem(nanosecondsOf(header.stamp), kOtherFrame, warning);
 }
 
 std::string ImageIntake::frameOfPoses() const {

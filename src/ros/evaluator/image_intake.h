@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/evaluator/pose_frames.h"
 #include "ros/evaluator/sequence_gaps.h"
 #include "sunlit/evaluate/run/evaluation.h"
 
@@ -80,6 +81,7 @@ class ImageIntake {
   void take(std::size_t stream, const Message& message, const std::string& sender);
   template <typename Call>
   void guarded(const Call& call);
+  void noteFrame(const std_msgs::Header& header);
   void countGap(std::size_t stream, const std_msgs::Header& header, const std::string& sender);
   std::size_t senders(std::size_t stream) const;
 
@@ -92,7 +94,9 @@ class ImageIntake {
   mutable std::mutex fault_mutex_;
   std::exception_ptr fault_;
   mutable std::mutex frame_mutex_;
+  std::string places_topic_;
   std::string frame_of_poses_;
+  PoseFrames frames_;
   // Last, so that they end before what their callbacks use.
   std::vector<Stream> streams_;
   ros::Subscriber places_;

@@ -28,10 +28,24 @@ std::unique_ptr<BagViews> ViewSource::open(const BagStream& stream) const {
   auto views = std::make_unique<BagViews>(stream, options_.topics, options_.intake);
   if (views->repeated() > 0)
     std::printf("%s: %zu images left out, whose stamps repeat\n", stream.name.c_str(), views->repeated());
+  if (views->repeatedDepths() > 0)
+    std::printf("%s: %zu pictures of depth left out, whose stamps repeat\n", stream.name.c_str(),
+                views->repeatedDepths());
   return views;
 }
 
+void ViewSource::noteFrames(const BagViews& views, bool is_of_map) {
+  if (options_.has_frame_a_stream) frames_ = {};
+  for (const auto& [frame, stamp_ns] : views.frames()) {
+    const std::string warning = frames_.note(frame, views.posesTopic() + " of " + views.stream().bag);
+    if (warning.empty()) continue;
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    problems_.push_back({views.stream().name, is_of_map, stamp_ns, kOtherFrame + (": " + warning), true});
+  }
+}
+
 std::vector<std::size_t> ViewSource::usable(const BagViews& views, bool needs_depth) {
+  noteFrames(views, needs_depth);
   evaluate::StreamCounts counts;
   counts.received = views.entries().size() + views.repeated();
   counts.duplicate = views.repeated();
@@ -81,6 +95,7 @@ void ViewSource::addProblem(const BagStream& stream, bool needs_depth, std::int6
 
 void ViewSource::addFeatureless(const BagStream& stream, bool is_of_map, std::int64_t stamp_ns,
                                 const std::string& detector) {
+  ++featureless_;
   const std::string of_depth = is_of_map ? " whose place its depth tells" : "";
   problems_.push_back({stream.name, is_of_map, stamp_ns,
                        "no_features: " + detector + " found nothing in it" + of_depth, true});
@@ -119,11 +134,10 @@ void ViewSource::fail(const std::string& what) const {
 
 int ViewSource::finish() const {
   writeProblems();
-  const std::size_t unused = unusable().size(), featureless = problems_.size() - unused;
-  if (featureless > 0)
-    std::fprintf(stderr, "%zu times a detector found nothing in an image (%s%s)\n", featureless,
+  if (featureless_ > 0)
+    std::fprintf(stderr, "%zu times a detector found nothing in an image (%s%s)\n", featureless_,
                  options_.output_dir.c_str(), kProblemsFile);
-  if (unused == 0) return 0;
+  if (unusable().empty()) return 0;
   std::fprintf(stderr, "%s\n", problemsInWords().c_str());
   return kNotWholeStatus;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ros/evaluator/bag_views.h"
+#include "ros/evaluator/pose_frames.h"
 #include "ros/evaluator/view_topics.h"
 #include "sunlit/evaluate/localise/localisation.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
@@ -21,7 +22,8 @@ namespace sunlit::ros_interface {
 struct ViewSourceOptions {
   ViewTopics topics;
   IntakeOptions intake;
-  std::string output_dir;  ///< of localisation_problems.csv
+  std::string output_dir;           ///< of localisation_problems.csv
+  bool has_frame_a_stream = false;  ///< poses of several streams are not compared
 };
 
 class ViewSource {
@@ -30,7 +32,8 @@ class ViewSource {
 
   /// Says what is read.
   std::unique_ptr<BagViews> open(const BagStream& stream) const;
-  /// Entries that have a camera and a pose and, where it `needs_depth`, depth. The others are problems.
+  /// Entries that have a camera and a pose and, where it `needs_depth`, depth. The others are problems, and
+  /// poses of another frame than those before are warned of.
   std::vector<std::size_t> usable(const BagViews& views, bool needs_depth);
   /// Hands on the views of `entries`, with the entries that they are of, a few at a time; those that cannot
   /// be read are problems, as is what detectors threw. `work` as in "queries localised".
@@ -58,10 +61,13 @@ class ViewSource {
   /// Counts images that cannot be used and names the first.
   std::string problemsInWords() const;
   void writeProblems() const;
+  void noteFrames(const BagViews& views, bool is_of_map);
   void addProblem(const BagStream& stream, bool needs_depth, std::int64_t stamp_ns, const std::string& fault);
 
   ViewSourceOptions options_;
   std::vector<evaluate::LocalisationProblem> problems_;
+  std::size_t featureless_ = 0;  // of problems
+  PoseFrames frames_;
 };
 
 /// Of camera_link.

@@ -54,19 +54,20 @@ class TestBags(unittest.TestCase):
     def path(self, name):
         return self.folder.name + '/' + name
 
-    def write_bags(self, names, poses=range(POSES), begin=0.0):
+    def write_bags(self, names, poses=range(POSES), begin=0.0, frame='', root='/'):
         for name, streams in names.items():
             with rosbag.Bag(self.path(name), 'w') as bag:
                 for pose in poses:
                     place = PoseStamped()
                     place.header.stamp = stamp_of(pose)
+                    place.header.frame_id = frame
                     place.pose.position.x = begin + pose
                     place.pose.orientation.w = 1.0
-                    bag.write('/camera/pose', place, stamp_of(pose))
+                    bag.write(root + 'camera/pose', place, stamp_of(pose))
                     for stream in streams:
                         capture = Capture(pose_index=pose, ev100=14.5, moon_azimuth=math.nan, moon_elevation=0.5)
                         capture.header.stamp = stamp_of(pose)
-                        topic = '/%s/camera/' % STREAMS[stream]
+                        topic = root + '%s/camera/' % STREAMS[stream]
                         bag.write(topic + 'image_raw', image_message(stamp_of(pose), picture(pose, stream, 160, 120)),
                                   stamp_of(pose))
                         bag.write(topic + 'capture', capture, stamp_of(pose))
@@ -262,6 +263,38 @@ class TestBags(unittest.TestCase):
         self.assertIn('3 two_places (h04-h12)', done.stdout)
         self.assertEqual([row['reason'] for row in rows(self.path('out'), 'problems.csv')],
                          3 * ['two poses of this stamp are 2 m and 0 deg apart: are these two recordings?'])
+        self.assertIn('path.csv: 3 poses of stamps of two places left out', done.stdout)
+        self.assertFalse(os.path.exists(self.path('out/path.csv')))
+
+    def test_poses_of_bags_in_other_frames_are_warned_of(self):
+        self.write_bags({'morning.bag': [0]}, range(2), frame='/map')
+        self.write_bags({'same.bag': [1]}, range(2), frame='map')
+        self.write_bags({'noon.bag': [1]}, range(2), frame='odom')
+        with open(self.path('both.yaml'), 'w') as file:
+            file.write('{streams: [h04, h12], output_dir: unused, differences: [boolean_rgb], report: false}')
+        both = ['--config', self.path('both.yaml'), '--out']
+        done = self.evaluate_bags(*both, self.path('one'), self.path('morning.bag'), self.path('same.bag'))
+        self.assertEqual((done.returncode, 'warning: ' in done.stdout), (0, False), done.stdout)
+        done = self.evaluate_bags(*both, self.path('two'), self.path('morning.bag'), self.path('noon.bag'))
+        self.assertEqual((done.returncode, done.stdout.count('warning: ')), (0, 1), done.stdout)
+        told = [row for row in rows(self.path('two'), 'problems.csv') if row['kind'] == 'other_frame']
+        self.assertEqual([(row['stamp'], row['where']) for row in told], [('1000.000000000', 'pose')])
+        reason = told[0]['reason'].strip('"')
+        self.assertIn('warning: %s\n' % reason, done.stdout)
+        for part in ('/camera/pose of ' + self.path('morning.bag'), '/camera/pose of ' + self.path('noon.bag'), 'in the frame ',
+                     'map', 'odom', ': errors mean nothing unless these are one frame'):
+            self.assertIn(part, reason)
+
+    def test_topics_may_lack_their_slash(self):
+        self.write_bags({'usual.bag': [0, 1, 2]}, range(11))
+        self.write_bags({'bare.bag': [0, 1, 2]}, range(11), root='')
+        for name in ('usual', 'bare'):
+            done = self.evaluate_bags('--config', self.config, '--out', self.path(name), self.path(name + '.bag'))
+            self.assertEqual(done.returncode, 0, done.stdout)
+        for name in RESULTS + ['captures.csv', 'path.csv']:
+            self.assertEqual(read(self.path('bare'), name), read(self.path('usual'), name))
+        done = self.evaluate_bags('--out', self.path('all'), self.path('bare.bag'))
+        self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_without_a_config_all_streams_of_the_bags_are_compared_by_all_differences(self):
         self.write_bags({'all.bag': [2, 0, 1]}, range(2))

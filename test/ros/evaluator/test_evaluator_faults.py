@@ -139,6 +139,27 @@ class TestFaults(unittest.TestCase):
         self.assertIn('path.csv: 1 poses of stamps without an image left out', output)
         self.assertEqual([row['stamp'] for row in self.problems('unusable')], ['%.9f' % stamp_of(p).to_sec() for p in (1, 2, 5)])
 
+    def test_poses_of_other_frames_are_warned_of(self):
+        places = rospy.Publisher('/camera/pose', PoseStamped, queue_size=None)
+        evaluator = self.start(poses=4)
+        wait_until(lambda: places.get_num_connections() > 0, 'a reader of poses')
+        for pose, frame in enumerate(['/map', 'map', 'odom', 'odom']):
+            message = PoseStamped()
+            message.header.stamp, message.header.frame_id = stamp_of(pose), frame
+            message.pose.orientation.w = 1.0
+            places.publish(message)
+            if pose < 3:
+                send_pose(self.streams, pose)
+        wait_until(lambda: self.problems('other_frame'), 'a warning')
+        places.unregister()
+        send_pose(self.streams, 3)
+        status, output = evaluator.wait()
+        self.assertEqual(status, 0, output)
+        warning = 'poses of /camera/pose are in the frame odom, others in map: errors mean nothing unless these are one frame'
+        self.assertEqual(output.count(warning), 1, output)
+        self.assertEqual([(row['stamp'], row['reason'].strip('"')) for row in self.problems('other_frame')],
+                         [('1000.200000000', warning)])
+
     def places(self):
         return [(row['pose'], row['x']) for row in rows(self.folder.name + '/out', 'path.csv')]
 

@@ -109,6 +109,23 @@ TEST(ConfidenceInterval, WithoutBlocksWouldHoldItFarTooSeldom) {
   EXPECT_LT(held / 300.0, 0.5);
 }
 
+TEST(ConfidenceInterval, EndsAtTheValueOfMostToTheBit) {
+  // Of 40 values a resample has none of the other two once in seven or eight times.
+  for (const double most : {0.0, 0.1, 1.0}) {
+    for (const std::size_t first_other : {0, 13}) {
+      std::vector<double> above(40, most), below(40, most);
+      for (const std::size_t i : {first_other, first_other + 20}) {
+        above[i] += 0.3;
+        below[i] -= 0.3;
+      }
+      EXPECT_EQ(statisticsOf(above).ci_low, most) << first_other;
+      EXPECT_GT(statisticsOf(above).ci_high, most);
+      EXPECT_EQ(statisticsOf(below).ci_high, most) << first_other;
+      EXPECT_LT(statisticsOf(below).ci_low, most);
+    }
+  }
+}
+
 TEST(ConfidenceInterval, OfAShareIsNeverWithoutWidth) {
   // 0 of 10 by Wilson's formula: 1.96² / (10 + 1.96²) = 0.2775.
   const Statistics none = shareOf(std::vector<double>(10, 0.0)), all = shareOf(std::vector<double>(10, 1.0));

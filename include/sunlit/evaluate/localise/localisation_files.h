@@ -32,13 +32,14 @@ KeyFrameOrigin originOf(const LocalisedQuery& result, const std::vector<KeyFrame
 /// The other way from wordOf(). Throws std::runtime_error for another word.
 LocalisationStatus statusOf(const std::string& word);
 
-/// An image that could be used neither for the map nor as a query, or that a detector is blind to.
+/// An image that could be used neither for the map nor as a query, or that a detector is blind to; or what is
+/// to be known of its pose.
 struct LocalisationProblem {
   std::string stream;
   bool is_of_map = false;
   std::int64_t stamp_ns = 0;
   std::string fault;     ///< in words
-  bool is_used = false;  ///< all the same: it tells what light does to a detector
+  bool is_used = false;  ///< all the same, as what tells what light does to a detector
 };
 
 /// A query is within reach where neither error is more.

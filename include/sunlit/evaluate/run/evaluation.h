@@ -165,6 +165,8 @@ class Evaluation {
   /// than 1 cm or 0.1° apart), but for those of one stream with itself, and nothing of it is localised.
   void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
   void addCamera(std::size_t stream, const Told<ViewCamera>& camera);
+  /// Names in problems.csv what is wrong with poses from this stamp on, though they are used.
+  void addPoseProblem(std::int64_t stamp_ns, const std::string& kind, const std::string& reason);
 
   const EvaluationOptions& options() const;
   /// Of work for pair_done that takes long: stops it once the run is broken off.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "sunlit/quantity/angle.h"
 #include "unit/evaluate/run/small_evaluation.h"
 
 namespace sunlit::evaluate {
@@ -319,97 +318,6 @@ TEST(WhereTheCameraStood, IsForgottenWhereNoImageComesForLong) {
   evaluation.finish();
   EXPECT_EQ(contentOf(folder.file("out/path.csv")),
             "pose,stamp,x,y,z,yaw_deg\n1,1800.000000000,65000,2,3,90\n");
-}
-
-/// At x, looking so far to the left.
-Told<Eigen::Isometry3d> stoodAt(double x_m, double left_deg = 0.0) {
-  Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
-  map_from_optical.translate(Eigen::Vector3d(x_m, 2.0, 1.0));
-  map_from_optical.rotate(Eigen::AngleAxisd(left_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()));
-  return told(map_from_optical);
-}
-
-/// Two recordings: their stamps coincide at pose 1, the second of them is of `other`.
-Outcome ofTwoRecordings(const TemporaryFolder& folder, const Told<Eigen::Isometry3d>& other, bool is_late) {
-  EvaluationOptions options = optionsFor(folder);
-  options.pairs = {{"h04", "h12", 1}, {"h04", "h04", 1}};
-  options.poses.count = 3;
-  Evaluation evaluation(options, {});
-  for (std::int64_t pose = 0; pose < 3; ++pose) {
-    evaluation.addTruePose(stampOf(pose), stoodAt(0.0));
-    if (pose == 1 && !is_late) evaluation.addTruePose(stampOf(pose), other);
-    feedPose(evaluation, pose);
-  }
-  evaluation.waitForRoom(0);
-  if (is_late) evaluation.addTruePose(stampOf(1), other);
-  EXPECT_TRUE(evaluation.isComplete());
-  return evaluation.finish();
-}
-
-TEST(OnePlace, ImagesOfOneStampButTwoPlacesAreNotComparedWheneverThatIsKnown) {
-  for (const bool is_late : {false, true}) {
-    const TemporaryFolder folder;
-    const Outcome outcome = ofTwoRecordings(folder, stoodAt(2.5, 10.0), is_late);
-    EXPECT_FALSE(outcome.isWhole());
-    EXPECT_EQ(outcome.counts.pairs[0].two_places, 1u) << is_late;
-    EXPECT_EQ(outcome.counts.pairs[0].evaluated, 2u) << is_late;
-    EXPECT_EQ(outcome.counts.pairs[1].two_places, 0u) << "a stream is where it is itself";
-    EXPECT_EQ(outcome.counts.pairs[1].evaluated, 3u) << is_late;
-    const std::string frames = contentOf(folder.file("out/frames.csv"));
-    EXPECT_FALSE(hasLine(frames, "1,500.100000000,h04,h12,")) << frames;
-    EXPECT_TRUE(hasLine(frames, "1,500.100000000,h04,h04,")) << frames;
-    const std::string problems = contentOf(folder.file("out/problems.csv"));
-    EXPECT_TRUE(hasLine(problems,
-                        "two_places,1,500.100000000,h04-h12,two poses of this stamp are 2.5 m and 10 deg "
-                        "apart: are these two recordings?"))
-        << problems;
-    EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("two_places: 1}"), std::string::npos);
-  }
-}
-
-TEST(OnePlace, IsToldAgainWhereTheRunThatFoundItWasKilled) {
-  const TemporaryFolder folder;
-  {
-    Evaluation killed(optionsFor(folder), {});
-    feedPose(killed, 0);
-    killed.addTruePose(stampOf(0), stoodAt(0.0));
-    killed.waitForRoom(0);
-    killed.addTruePose(stampOf(0), stoodAt(2.5));
-  }
-  ASSERT_TRUE(hasLine(contentOf(folder.file("out/frames.csv")), "0,500.000000000,h04,h12,"));
-  Evaluation evaluation(optionsFor(folder), {});
-  evaluation.addTruePose(stampOf(0), stoodAt(0.0));
-  feedPose(evaluation, 0);
-  evaluation.waitForRoom(0);
-  evaluation.addTruePose(stampOf(0), stoodAt(2.5));
-  const Outcome outcome = evaluation.finish();
-  EXPECT_EQ(outcome.counts.pairs[0].resumed, 0u);
-  EXPECT_EQ(outcome.counts.pairs[0].two_places, 1u);
-  EXPECT_FALSE(hasLine(contentOf(folder.file("out/frames.csv")), "0,500.000000000,h04,h12,"));
-  EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "two_places,0,500.000000000,h04-h12,"));
-}
-
-TEST(OnePlace, IsForgottenWhereNoImageComesForLong) {
-  const TemporaryFolder folder;
-  Evaluation evaluation(optionsFor(folder), {});
-  feedPose(evaluation, 1);
-  for (std::int64_t pose = 0; pose < 66000; ++pose) evaluation.addTruePose(stampOf(pose), stoodAt(0.0));
-  for (std::int64_t pose = 0; pose < 2; ++pose) evaluation.addTruePose(stampOf(pose), stoodAt(2.5));
-  feedPose(evaluation, 0);
-  const Outcome outcome = evaluation.finish();
-  EXPECT_EQ(outcome.counts.pairs[0].two_places, 1u) << "of the image that came before";
-  EXPECT_EQ(outcome.counts.pairs[0].evaluated, 1u);
-}
-
-TEST(OnePlace, IsTheSameWithinWhatHardlyMovesAPixel) {
-  const auto two_places = [](const Told<Eigen::Isometry3d>& other) {
-    const TemporaryFolder folder;
-    return ofTwoRecordings(folder, other, false).counts.pairs[0].two_places;
-  };
-  EXPECT_EQ(two_places(stoodAt(0.0)), 0u) << "sent twice";
-  EXPECT_EQ(two_places(stoodAt(0.009, 0.09)), 0u);
-  EXPECT_EQ(two_places(stoodAt(0.011)), 1u);
-  EXPECT_EQ(two_places(stoodAt(0.0, 0.11)), 1u);
 }
 
 }  // namespace

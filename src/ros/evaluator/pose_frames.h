@@ -1,0 +1,25 @@
+/// Whether true poses are all of one frame.
+#pragma once
+
+#include <set>
+#include <string>
+
+namespace sunlit::ros_interface {
+
+/// Problems of poses in another frame are called so in files.
+inline constexpr const char* kOtherFrame = "other_frame";
+
+/// The frames in which true poses come. What is localised in a map of `map` but has its truth in `odom` is
+/// measured from frame to frame. Some call one frame by two names, though, so that it is told, not refused.
+class PoseFrames {
+ public:
+  /// A line that warns where this frame is another than the first, once for each; else empty. A slash in
+  /// front makes no difference, and a frame without a name says nothing. `where`: "/camera/pose of noon.bag".
+  std::string note(const std::string& frame_id, const std::string& where);
+
+ private:
+  std::string first_, first_where_;
+  std::set<std::string> told_;
+};
+
+}  // namespace sunlit::ros_interface
