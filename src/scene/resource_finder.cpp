@@ -163,7 +163,7 @@ Found ResourceFinder::findAsWritten(const std::string& uri, const std::string& f
     candidates.push_back(fs::path(root) / "models" / path);
   }
   Found found = firstOf(candidates, wanted);
-  found.no_package = unknownPackage(uri);
+  if (package_folder_ && of_package.empty()) found.no_package = package;
   if (found.file) return found;
   // Where Gazebo classic looks besides, and hardly anyone keeps anything: not worth telling.
   std::vector<fs::path> media;
