@@ -19,14 +19,14 @@ std::string merged(Status::_level_type level, Status::_level_type other) {
 
 }  // namespace
 
-TEST(DiagnosticUpdaterAbsent, keepsTheWorseOfTwoSummariesAndJoinsWhatIsWrong) {
+TEST(DiagnosticUpdaterAbsent, KeepsTheWorseOfTwoSummariesAndJoinsWhatIsWrong) {
   EXPECT_EQ(merged(Status::OK, Status::OK), "0 first");
   EXPECT_EQ(merged(Status::OK, Status::WARN), "1 second");
   EXPECT_EQ(merged(Status::WARN, Status::OK), "1 first");
   EXPECT_EQ(merged(Status::ERROR, Status::WARN), "2 first; second");
 }
 
-TEST(DiagnosticUpdaterAbsent, writesValuesAndFormattedTexts) {
+TEST(DiagnosticUpdaterAbsent, WritesValuesAndFormattedTexts) {
   Status status;
   status.add("poses", 3);
   status.addf("share", "%.1f %%", 50.0);
