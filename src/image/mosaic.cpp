@@ -21,6 +21,28 @@ const Kind& kindOf(MosaicPattern pattern) {
   return kinds[static_cast<std::size_t>(pattern) - 1];  // none has no kind
 }
 
+/// By variable numbers of gradients OpenCV up to 4.11 draws two rows above where the picture is: how many
+/// this one does, by a red pixel alone.
+int rowsTooHigh() {
+  constexpr int kSide = 32, kPlace = 16;
+  cv::Mat mosaic(kSide, kSide, CV_8UC1, cv::Scalar(0)), seen;
+  mosaic.at<std::uint8_t>(kPlace, kPlace) = 255;
+  cv::demosaicing(mosaic, seen, cv::COLOR_BayerBG2RGB_VNG);
+  for (int y = 0; y < kSide; ++y)
+    if (seen.at<cv::Vec3b>(y, kPlace)[0] == 255) return kPlace - y;
+  return 0;
+}
+
+/// With a border that shifted rows come from: an even one, so that the pattern stays.
+void demosaicByGradients(const cv::Mat& mosaic, int conversion, cv::Mat* picture) {
+  static const int too_high = rowsTooHigh();
+  constexpr int kBorder = 8;
+  cv::Mat wide, seen;
+  cv::copyMakeBorder(mosaic, wide, kBorder, kBorder, kBorder, kBorder, cv::BORDER_REFLECT_101);
+  cv::demosaicing(wide, seen, conversion);
+  seen(cv::Rect(kBorder, kBorder - too_high, mosaic.cols, mosaic.rows)).copyTo(*picture);
+}
+
 }  // namespace
 
 Rgb8Image throughMosaic(Rgb8Image picture, const MosaicOptions& options) {
@@ -35,7 +57,11 @@ Rgb8Image throughMosaic(Rgb8Image picture, const MosaicOptions& options) {
   }
   const cv::Mat seen(mosaic.height, mosaic.width, CV_8UC1, mosaic.data.data());
   cv::Mat whole(picture.height, picture.width, CV_8UC3, picture.data.data());
-  cv::demosaicing(seen, whole, kind.conversions[static_cast<std::size_t>(options.demosaic)]);
+  const int conversion = kind.conversions[static_cast<std::size_t>(options.demosaic)];
+  if (options.demosaic == Demosaic::kVng)
+    demosaicByGradients(seen, conversion, &whole);
+  else
+    cv::demosaicing(seen, whole, conversion);
   return picture;
 }
 

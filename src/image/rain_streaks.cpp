@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "random_sequence.h"
 #include "sunlit/image/mean_luminance.h"
@@ -39,6 +40,7 @@ class Painter {
 
  private:
   static constexpr int kHalvings = 10;
+  static constexpr double kDisc_px = 2.5;  ///< wider drops are discs, narrower ones squares
   struct Moment {
     double time;  ///< −1 … 1 from begin to end of the exposure
     Eigen::Vector3d place;
@@ -92,11 +94,12 @@ class Painter {
     return (from.max(to) + reach_px < 0.0).any() || (from.min(to) - reach_px > size).any();
   }
 
-  /// The drop's shadow, in pixels' areas, spread along its way in steps of half its width, `width_px` at
-  /// most.
+  /// The drop's shadow, in pixels' areas, spread along its way: a wide one evenly, others in steps of half
+  /// their width, `width_px` at most.
   void paintStraight(const Part& part, double width_px) {
     const Eigen::Vector2d from = *part.from.pixel, way = *part.to.pixel - from;
     const int steps = 1 + static_cast<int>(2.0 * way.norm() / width_px);
+    if (steps > 1 && width_px > kDisc_px) return sweep(part);
     // Those in the picture: a way may be far longer.
     const Eigen::Vector2d size(picture_.width, picture_.height);
     double first = 0.0, last = 1.0;
@@ -117,6 +120,63 @@ class Painter {
     }
   }
 
+  /// The shadow of a drop several pixels wide, passed evenly: each pixel has it for as long as the disc takes
+  /// to pass, so that the streak is even along its way.
+  void sweep(const Part& part) {
+    const Eigen::Vector2d from = *part.from.pixel, to = *part.to.pixel;
+    const double length = (to - from).norm();
+    const Eigen::Vector2d along = (to - from) / length;
+    const double share = 0.5 * (part.to.time - part.from.time) / length;  // of the exposure, a pixel of way
+    const double radius =
+        0.25 * (diameterOf(part.drop, part.from.place) + diameterOf(part.drop, part.to.place));
+    const double reach = radius + 0.5;
+    const int top = std::max(0, static_cast<int>(std::ceil(std::min(from.y(), to.y()) - reach)));
+    const int bottom =
+        std::min(picture_.height - 1, static_cast<int>(std::floor(std::max(from.y(), to.y()) + reach)));
+    for (int y = top; y <= bottom; ++y) {
+      const auto [left, right] = rowOf(part, along, reach, y);
+      for (int x = left; x <= right; ++x) {
+        const Eigen::Vector2d off = Eigen::Vector2d(x, y) - from;
+        const double at = along.dot(off);
+        const double chord = halfChord(along.x() * off.y() - along.y() * off.x(), radius);
+        const double passed = std::min(at + chord, length) - std::max(at - chord, 0.0);
+        if (passed <= 0.0) continue;
+        const Eigen::Vector3d place =
+            part.from.place + std::clamp(at / length, 0.0, 1.0) * (part.to.place - part.from.place);
+        if (place.norm() >= kNearest_m) cover(x, y, depthOf(place), share * passed);
+      }
+    }
+  }
+
+  /// The columns of row `y` that lie within `reach` of the part's line and ends.
+  std::pair<int, int> rowOf(const Part& part, const Eigen::Vector2d& along, double reach, int y) const {
+    const Eigen::Vector2d from = *part.from.pixel, to = *part.to.pixel;
+    double left = std::min(from.x(), to.x()) - reach, right = std::max(from.x(), to.x()) + reach;
+    if (std::abs(along.y()) > 1e-3) {
+      const double middle = from.x() + (y - from.y()) * along.x() / along.y();
+      left = std::max(left, middle - reach / std::abs(along.y()));
+      right = std::min(right, middle + reach / std::abs(along.y()));
+    }
+    return {std::max(0, static_cast<int>(std::ceil(std::min(left, 1.0 * picture_.width)))),
+            static_cast<int>(std::floor(std::min(right, picture_.width - 1.0)))};
+  }
+
+  /// Half of a disc's chords that pass at `off` from its middle, in the mean over a pixel's width.
+  static double halfChord(double off, double radius) {
+    const auto area = [radius](double to) {
+      const double t = std::clamp(to / radius, -1.0, 1.0);
+      return 0.5 * radius * radius * (t * std::sqrt(1.0 - t * t) + std::asin(t));
+    };
+    return area(off + 0.5) - area(off - 0.5);
+  }
+
+  void cover(int x, int y, double depth_m, double share) {
+    if (*view_.depth.at(x, y) < static_cast<float>(depth_m)) return;  // behind what is seen
+    const auto opacity = static_cast<float>(std::min(share, 1.0));
+    float* const rgb = picture_.at(x, y);
+    for (int c = 0; c < 3; ++c) rgb[c] += opacity * (rain_.luminance[c] - rgb[c]);
+  }
+
   /// A disc whose edge is a pixel wide; of a pixel or two a square, whose middle is where it should be.
   void splat(const Eigen::Vector2d& middle, double depth_m, const Mark& mark) {
     const double u = middle.x(), v = middle.y();
@@ -126,7 +186,6 @@ class Painter {
     const auto overlap = [&](double place, int pixel) {
       return std::clamp(reach - std::abs(pixel - place), 0.0, std::min(1.0, mark.width_px));
     };
-    constexpr double kDisc_px = 2.5;
     const bool disc = mark.width_px > kDisc_px;
     const auto covered = [&](int x, int y) {
       const double off_x = x - u, off_y = y - v;
@@ -138,10 +197,7 @@ class Painter {
         disc ? kPi * (0.25 * mark.width_px * mark.width_px + 1.0 / 12.0) : mark.width_px * mark.width_px;
     for (int y = std::max(top, 0); y <= std::min(bottom, picture_.height - 1); ++y) {
       for (int x = std::max(left, 0); x <= std::min(right, picture_.width - 1); ++x) {
-        if (*view_.depth.at(x, y) < static_cast<float>(depth_m)) continue;  // behind what is seen
-        const auto share = static_cast<float>(std::min(mark.area_px * covered(x, y) / all, 1.0));
-        float* const rgb = picture_.at(x, y);
-        for (int c = 0; c < 3; ++c) rgb[c] += share * (rain_.luminance[c] - rgb[c]);
+        cover(x, y, depth_m, mark.area_px * covered(x, y) / all);
       }
     }
   }

@@ -10,12 +10,12 @@
 
 namespace sunlit::tools {
 
-namespace {
-
 bool isFrame(const std::string& name) {
   static const std::regex frame("frame_[0-9]{5,}\\.png");
   return std::regex_match(name, frame);
 }
+
+namespace {
 
 /// The first picture in `folder` that has the name of a frame; empty if there is none.
 std::string anyFrame(const std::string& folder) {

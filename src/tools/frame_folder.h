@@ -9,6 +9,9 @@
 
 namespace sunlit::tools {
 
+/// Whether a file of this name is one of the folder's frames.
+bool isFrame(const std::string& name);
+
 class FrameFolder {
  public:
   /// Throws std::runtime_error if the folder's frames were made by another `recipe`, or by nobody knows

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sunlit/studio/command_line.h"
+#include "tools/frame_folder.h"
 #include "tools/recipe.h"
 
 namespace sunlit::tools {
@@ -83,7 +84,10 @@ void requireRoomFor(const std::string& option, const std::string& file, const st
   const auto spelt = [](const fs::path& folder) {
     return (fs::weakly_canonical(fs::absolute(folder)) / "").lexically_normal();
   };
-  if (spelt(fs::absolute(file).parent_path()) != spelt(output)) studio::requireFolderOf(option, file);
+  if (spelt(fs::absolute(file).parent_path()) != spelt(output)) return studio::requireFolderOf(option, file);
+  if (isFrame(fs::path(file).filename().string()))
+    throw std::invalid_argument(option + " is " + file +
+                                ", but must be another file than the frames in --out");
 }
 
 /// Options that do not change what frames look like.

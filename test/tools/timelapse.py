@@ -191,6 +191,8 @@ class Timelapse(unittest.TestCase):
                                  (out + ["--site", "91,0"], ["--site", "91", "latitude"]),
                                  (out + ["--video", "film.gif"], ["--video", "film.gif", ".mp4"]),
                                  (out + ["--contact-sheet", "day.jpg"], ["--contact-sheet", "day.jpg", ".png"]),
+                                 (out + ["--contact-sheet", out[1] + "/frame_00002.png"],
+                                  ["--contact-sheet", "frame_00002.png", "another file than the frames"]),
                                  (out + ["--contact-sheet", "day.png", "--step", "0.1"],
                                   ["--contact-sheet", "1930 x ", "16384"]),
                                  (out + ["--video", self.path("none/film.mp4")], ["--video", "none", "folder that exists"]),

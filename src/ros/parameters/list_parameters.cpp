@@ -33,11 +33,14 @@ void list(const std::string& node, const std::vector<Field>& rows) {
 
 }  // namespace
 
-int main(int argc, char**) {
+int main(int argc, char** argv) {
   if (argc > 1) {
-    std::puts(
-        "list_parameters: every parameter of the nodes as YAML. Takes no arguments, needs no ROS master.");
-    return 0;
+    const std::string word = argv[1];
+    const bool help = word == "-h" || word == "--help";
+    std::fputs(
+        "list_parameters: every parameter of the nodes as YAML. Takes no arguments, needs no ROS master.\n",
+        help ? stdout : stderr);
+    return help ? 0 : 1;
   }
   using namespace sunlit;
   double period_s = 1.0;

@@ -106,7 +106,7 @@ RobotPlaces::RobotPlaces(const scene::Robot& robot, const RobotOptions& options,
     const scene::RobotLink& link = robot.links[i];
     links_.push_back({frameOf(link.name, options.tf_prefix),
                       link.parent < 0 ? i : static_cast<std::size_t>(link.parent), link.parent_from_link,
-                      !link.meshes.empty()});
+                      !link.meshes.empty() || !link.lamps.empty()});
   }
   base_from_rest_ = robot.baseFromLinks(base_);
   if (camera_height_m) placeCamera(robot, options, *camera_height_m);
@@ -175,7 +175,7 @@ render::BodyPlaces RobotPlaces::onPath(const Eigen::Isometry3d& map_from_camera,
 
 void RobotPlaces::count(const Joints& joints) {
   for (std::size_t i = 0; i < links_.size(); ++i)
-    if (joints[i] && links_[i].visible && i != base_) countStanding(&links_[i], joints[i]->stamp);
+    if (joints[i] && links_[i].matters && i != base_) countStanding(&links_[i], joints[i]->stamp);
   auto known = transformsOf(joints);
   known[base_] = Eigen::Isometry3d::Identity();
   countMissing(known);
@@ -203,11 +203,11 @@ std::optional<render::BodyPlaces> RobotPlaces::byTf(const tf2_ros::Buffer& tf, c
   return place(map_from_base, known);
 }
 
-/// Whether a link that is to be seen is not known, and has not been waited for long enough.
+/// Whether a link that matters is not known, and has not been waited for long enough.
 bool RobotPlaces::worthWaiting(const std::vector<std::optional<Eigen::Isometry3d>>& known) {
   std::string missing;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (links_[i].visible && !known[i] && !links_[i].given_up) missing = links_[i].frame;
+    if (links_[i].matters && !known[i] && !links_[i].given_up) missing = links_[i].frame;
   }
   if (missing.empty()) {
     waiting_since_.reset();
@@ -218,7 +218,7 @@ bool RobotPlaces::worthWaiting(const std::vector<std::optional<Eigen::Isometry3d
   if (Clock::now() - *waiting_since_ < patience_) return true;
   waiting_since_.reset();
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (links_[i].visible && !known[i]) links_[i].given_up = true;
+    if (links_[i].matters && !known[i]) links_[i].given_up = true;
   }
   return false;
 }
@@ -232,7 +232,7 @@ void RobotPlaces::countStanding(Link* link, const ros::Time& stamp) const {
   } else if (now - link->renewed > patience_ && link->standing++ == 0) {
     ROS_WARN(
         "The transform of the robot's link %s on TF is that of %.3f s and has not been renewed for %.1f s: "
-        "the link is drawn where it was",
+        "the link stays where it was",
         link->frame.c_str(), stamp.toSec(), patience_.count());
   }
 }
@@ -241,10 +241,9 @@ void RobotPlaces::countMissing(const std::vector<std::optional<Eigen::Isometry3d
   ++poses_;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (known[i]) links_[i].given_up = false;
-    if (!links_[i].visible || known[i]) continue;
+    if (!links_[i].matters || known[i]) continue;
     if (links_[i].missed++ == 0) {
-      ROS_WARN("No transform of the robot's link %s on TF: it is drawn in rest position",
-               links_[i].frame.c_str());
+      ROS_WARN("No transform of the robot's link %s on TF: it is in rest position", links_[i].frame.c_str());
     }
   }
 }

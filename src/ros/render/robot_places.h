@@ -63,7 +63,7 @@ class RobotPlaces {
     std::string frame;   ///< as TF calls it
     std::size_t parent;  ///< the link's own index for the root
     Eigen::Isometry3d parent_from_link;
-    bool visible;
+    bool matters;           // it is drawn, or lights
     bool given_up = false;  ///< nobody waits for its transform any more
     int missed = 0;         ///< poses without its transform
     ros::Time stamp{};      ///< of its latest transform

@@ -30,10 +30,13 @@ REQUIRED = ["streams", "output_dir"]  # of the evaluator: in the shipped file st
 NODES = {"sun_position_node", "render_node", "evaluator_node"}
 
 
+def list_parameters(*words):
+    return subprocess.run([os.path.join(os.environ["SUNLIT_DEVEL_DIR"], "lib", "sunlit", "list_parameters"), *words],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, text=True)
+
+
 def programmed():
-    output = subprocess.run([os.path.join(os.environ["SUNLIT_DEVEL_DIR"], "lib", "sunlit", "list_parameters")],
-                            stdout=subprocess.PIPE, check=True, text=True).stdout
-    return yaml.safe_load(output)
+    return yaml.safe_load(list_parameters().stdout)
 
 
 def ranges(text):
@@ -131,6 +134,11 @@ class ParametersAgree(unittest.TestCase):
                 if told:
                     self.assertTrue(told & ranges(comments[key]), f"{row['allowed']} is not in {comments[key]!r}")
                     self.assertEqual(ranges(comments[key]), told, "another range stands there too")
+
+    def test_words_are_refused_but_for_help(self):
+        done = [list_parameters(word) for word in ("--help", "render_node")]
+        self.assertEqual([run.returncode for run in done], [0, 1])
+        self.assertEqual((done[1].stdout, done[1].stderr), ("", done[0].stdout))
 
     def test_sun_position(self):
         self.check_file("sun_position_node", "sun_position.yaml")

@@ -70,6 +70,18 @@ TEST(RobotPlaces, StandWithTheCameraOnItsLinkHoweverThatIsTurned) {
   }
 }
 
+TEST(RobotPlaces, WaitForALinkThatOnlyLights) {
+  scene::Robot robot = robotWithCamera("headlight", "0 0 0");
+  RobotOptions options;
+  options.joints_by_tf = true;
+  const tf2_ros::Buffer tf;  // which knows no link
+  EXPECT_TRUE(RobotPlaces(robot, options, {}, std::nullopt).knowsJoints(tf)) << "nothing of it is seen";
+  robot.links[1].lamps.emplace_back();
+  RobotPlaces places(robot, options, {}, std::nullopt);
+  EXPECT_FALSE(places.knowsJoints(tf));
+  EXPECT_NE(places.waitsFor().find("headlight"), std::string::npos) << places.waitsFor();
+}
+
 TEST(StampOfPose, IsStartPlusIndexOverRateToTheNanosecond) {
   const ros::Time start(1000, 250000000);
   EXPECT_EQ(stampOfPose(start, 0, 10.0), start);

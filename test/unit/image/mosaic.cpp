@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "sunlit/image/exposure.h"
 #include "sunlit/image/sensor_noise.h"
@@ -48,6 +50,30 @@ TEST(Mosaic, LeavesAnEvenColourAsItIs) {
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(seen.at(30, 21)[c], picture.at(30, 21)[c], 1)
             << static_cast<int>(pattern) << " " << static_cast<int>(way);
+    }
+  }
+}
+
+TEST(Mosaic, LeavesWhatASensorSeesAtItsPixel) {
+  // The value of a pixel's own colour stays, wherever it is, whatever the two others become.
+  for (const MosaicPattern pattern : kPatterns) {
+    for (const Demosaic way : kWays) {
+      for (const auto& [width, height] : {std::pair{64, 48}, {33, 17}}) {
+        Rgb8Image picture(width, height);
+        for (std::size_t i = 0; i < picture.data.size(); ++i)
+          picture.data[i] = static_cast<std::uint8_t>(i * i * 31 % 251);
+        const Rgb8Image seen = throughMosaic(picture, {pattern, way});
+        int kept = 0;
+        for (int y = 4; y < height - 4; ++y) {
+          for (int x = 4; x < width - 4; ++x) {
+            bool is_own = false;
+            for (int c = 0; c < 3; ++c) is_own |= seen.at(x, y)[c] == picture.at(x, y)[c];
+            kept += is_own ? 1 : 0;
+          }
+        }
+        EXPECT_EQ(kept, (width - 8) * (height - 8))
+            << static_cast<int>(pattern) << " " << static_cast<int>(way);
+      }
     }
   }
 }

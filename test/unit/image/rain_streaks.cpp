@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -76,6 +77,28 @@ TEST(RainStreaks, TakeAwayWhatTheirShadowsCover) {
           << mm_per_h << " " << exposure_s;
     }
   }
+}
+
+TEST(RainStreaks, AreEvenAlongTheirWay) {
+  // Upright, up to 9 px wide and some 200 px long. Where one lies on another, opacity rises or falls; strings
+  // of beads would do both, a fifth of all pixels being the most or the least of their column's neighbours.
+  const Lens lens(PinholeCamera::fromFieldOfView(kWidth, kHeight, Angle::degrees(6.0)), {});
+  const DepthImage depth = at(12.0f);
+  int covered = 0, beads = 0;
+  for (int i = 0; i < 20; ++i) {
+    LinearImage picture = grey(1.0f);
+    addRain({50.0, 7, i, 0.01}, {lens, level({0.0, 0.0, 5.0}), Motion(), depth}, &picture);
+    for (int x = 0; x < kWidth; ++x) {
+      for (int y = 2; y < kHeight - 2; ++y) {
+        const float here = *picture.at(x, y), above = *picture.at(x, y - 2), below = *picture.at(x, y + 2);
+        covered += here < 0.98f ? 1 : 0;
+        const float least = std::min(above, below), most = std::max(above, below);
+        beads += here < least - 0.001f || here > most + 0.001f ? 1 : 0;
+      }
+    }
+  }
+  ASSERT_GT(covered, 100000);
+  EXPECT_LT(beads, 0.02 * covered);
 }
 
 TEST(RainStreaks, AreNoneBeforeWhatIsNearerOrWithoutRain) {
