@@ -52,20 +52,27 @@ std::map<std::string, std::string> settingsIn(const std::string& path) {
   return settings;
 }
 
-/// Of a value as people type it: words, numbers and marks, without the blanks between.
+bool isMark(char c) {
+  return c != '\0' && std::strchr("[]{}(),:;", c) != nullptr;
+}
+
+/// Of a value as people type it: words, numbers, marks and blanks, but for those beside marks.
 std::vector<std::string> wordsIn(const std::string& text) {
   std::vector<std::string> words;
   bool goes_on = false;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    const bool is_mark = code < 0x80 && std::strchr("[]{}(),:;", c) != nullptr;
-    if (std::isspace(code) != 0) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t next = std::min(text.find_first_not_of(' ', i), text.size());
+    const bool is_beside_mark =
+        next > i && ((!words.empty() && isMark(words.back()[0])) || isMark(text[next]));
+    if (is_beside_mark) {
+      i = next - 1;
       goes_on = false;
-    } else {
-      if (!goes_on || is_mark) words.emplace_back();
-      words.back() += c;
-      goes_on = !is_mark;
+      continue;
     }
+    const bool is_apart = text[i] == ' ' || isMark(text[i]);
+    if (!goes_on || is_apart) words.emplace_back();
+    words.back() += text[i];
+    goes_on = !is_apart;
   }
   return words;
 }

@@ -248,15 +248,17 @@ TEST(Evaluation, RefusesAFolderOfOtherSettingsNamingThem) {
   EXPECT_NE(refusal(other).find("about/date was 2024-07-01, now it's another"), std::string::npos)
       << refusal(other);
   other = options;
-  other.about[1].second = "[5.0,13,20.50]";
+  other.about[1].second = "[ 5.0,13,  20.50]";
   EXPECT_EQ(refusal(other), "") << "spelt otherwise";
   for (const char* hours : {"[5, 13, 20.6]", "[5, 13]", "[513, 20.5]", "5, 13, 20.5"}) {
     other.about[1].second = hours;
     EXPECT_NE(refusal(other), "") << hours;
   }
-  other = options;
-  other.about[2].second = "track7";
-  EXPECT_NE(refusal(other), "");
+  for (const char* world : {"track7", "track  7", "track 7 ", "track\n7"}) {
+    other = options;
+    other.about[2].second = world;
+    EXPECT_NE(refusal(other), "") << world;
+  }
 }
 
 TEST(Evaluation, TakesAFolderOfOtherSettingsInWhichNothingWasEvaluatedYet) {
