@@ -90,8 +90,8 @@ class Experiment:
             if self.recorder and self.recorder.has_poses_left:
                 self._await(lambda dead: "render" in dead)
             said = self._recorded()
-            whose = "" if self.inputs is None else " of the earlier run, which left nothing to evaluate"
-            return [*said, *self._reported(rows), f"done; results{whose} in {self.output}"]
+            before = "" if self.inputs is None else "an earlier run had evaluated all; "
+            return [*said, *self._reported(rows), f"done; {before}results in {self.output}"]
         finally:
             if self.recorder:
                 self.recorder.stop()

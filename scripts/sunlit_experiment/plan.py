@@ -15,11 +15,11 @@ FRAME_RATE_HZ = 10.0
 DEGREES_PER_HOUR = 15
 FAR_FROM_NOON_H = 1.5
 EVALUATOR, RECORDER = "/evaluator", "/" + recording.NODE  # nodes
-# What the evaluator writes down beside its results, as it was typed, but for files, which have one name wherever one starts.
+# What the evaluator writes down beside its results, as it was typed, but for flags, which have several spellings.
 ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "conditions", "spacing", "offset", "yaw", "exposure", "ev100",
          "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "vignetting", "glare",
          "blur", "mosaic", "line_delay", "exposure_time", "speed", "adaptation", "turbidity", "ozone", "ground_albedo")
-FILES = ("world", "robot", "path")
+FLAGS = ("night", "noise")
 
 
 @dataclasses.dataclass
@@ -250,12 +250,12 @@ def _self_test_renderer(typed, given, places, beginning):
 
 
 def _about(typed):
-    about = {name: read.file(typed[name]) if name in FILES else typed[name] for name in ABOUT}
+    about = {name: str(read.flag(name, typed[name])).lower() if name in FLAGS else typed[name] for name in ABOUT}
     return dict(about, camera=f"{_about_camera(typed)}, {typed['camera_height']} m")
 
 
 def _about_camera(typed):
-    return read.file(typed["calibration"]) or f"{typed['width']} x {typed['height']}, {typed['horizontal_fov']} deg"
+    return typed["calibration"] or f"{typed['width']} x {typed['height']}, {typed['horizontal_fov']} deg"
 
 
 def _evaluator(typed, places, beginning):

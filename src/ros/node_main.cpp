@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
@@ -22,6 +23,7 @@ namespace sunlit::ros_interface {
 namespace {
 
 volatile std::sig_atomic_t is_interrupted = 0;
+std::atomic<bool> are_interrupts_held = false;
 
 void onInterrupt(int number) {
   is_interrupted = 1;
@@ -31,6 +33,15 @@ void onInterrupt(int number) {
 // As roscpp's own handler of SIGINT.
 void onTermination(int) {
   ros::requestShutdown();
+}
+
+/// As the first SIGINT does, which is still to come where somebody else ends what roslaunch left, and would
+/// be the second.
+void endInOrder() {
+  if (are_interrupts_held)
+    is_interrupted = 1;
+  else
+    ros::requestShutdown();
 }
 
 /// roslaunch tells each node where to log.
@@ -73,7 +84,7 @@ class EndsWithItsParent {
       if (changed_.wait_for(lock, kPeriod, is_done)) return;
     std::fputs("roslaunch has gone: this node ends, too\n", stderr);
     if (has_master_) {
-      kill(getpid(), SIGINT);
+      endInOrder();
       if (changed_.wait_for(lock, kGrace, is_done)) return;
     }
     std::_Exit(1);
@@ -118,6 +129,7 @@ int runNode(int argc, char** argv, const std::string& name, const std::function<
 }
 
 void holdInterrupts() {
+  are_interrupts_held = true;
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
 }

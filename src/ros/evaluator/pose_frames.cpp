@@ -11,7 +11,7 @@ std::string PoseFrames::note(const std::string& frame_id, const std::string& whe
     first_ = frame;
     first_where_ = where;
   }
-  if (frame == first_ || !told_.insert(frame).second) return "";
+  if (frame == first_ || !told_.emplace(frame, where).second) return "";
   const std::string others = where == first_where_ ? "others" : "those of " + first_where_;
   return "poses of " + where + " are in the frame " + frame + ", " + others + " in " + first_ +
          ": errors mean nothing unless these are one frame";

@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 namespace sunlit::ros_interface {
 
@@ -13,13 +14,14 @@ inline constexpr const char* kOtherFrame = "other_frame";
 /// measured from frame to frame. Some call one frame by two names, though, so that it is told, not refused.
 class PoseFrames {
  public:
-  /// A line that warns where this frame is another than the first, once for each; else empty. A slash in
-  /// front makes no difference, and a frame without a name says nothing. `where`: "/camera/pose of noon.bag".
+  /// A line that warns where this frame is another than the first, once for each place of each; else empty. A
+  /// slash in front makes no difference, and a frame without a name says nothing. `where`: "/camera/pose of
+  /// noon.bag".
   std::string note(const std::string& frame_id, const std::string& where);
 
  private:
   std::string first_, first_where_;
-  std::set<std::string> told_;
+  std::set<std::pair<std::string, std::string>> told_;  // frames, and where they came
 };
 
 }  // namespace sunlit::ros_interface

@@ -248,7 +248,7 @@ class ExperimentRuns(unittest.TestCase):
         self.assertEqual(after, before)
         status, said, after = started_again(spacing="0.50", hours="[ 10,12.0]", ev100="14", world=os.path.relpath(world))
         self.assertEqual(status, 0, said)
-        self.assertIn("done; results of the earlier run, which left nothing to evaluate", said)
+        self.assertIn("done; an earlier run had evaluated all; results in ", said)
         self.assertEqual(after[0], before[0])
         self.change(world)
         status, said, after = started_again()

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xmlrpc.client
 
 import rosgraph
 import rosunit
@@ -33,7 +34,14 @@ class Master:
     def __init__(self):
         self.port = free_port()
         self.uri = "http://localhost:%d" % self.port
+        self.proxy = xmlrpc.client.ServerProxy(self.uri)
         self._process = None
+
+    def is_there(self):
+        try:
+            return bool(self.proxy.getPid("/test"))
+        except OSError:
+            return False
 
     def start(self):
         self._process = subprocess.Popen(["rosmaster", "--core", "-p", str(self.port)], stdout=subprocess.DEVNULL)
@@ -65,6 +73,9 @@ class Child:
     def await_words(self, words):
         while words.encode() not in self._heard:
             self._heard += self._read(LONG_s) or b""
+
+    def interrupt(self):
+        os.kill(self._node, signal.SIGINT)
 
     def orphan(self):
         self._parent.kill()
@@ -108,10 +119,15 @@ class NodeWithoutMaster(unittest.TestCase):
         self.addCleanup(child.close)
         return child
 
-    def registered(self, node):
+    def registered(self, node, **parameters):
         self.master.start()
-        child = self.child(node, *self.as_roslaunch_does)
         deadline = time.monotonic() + LONG_s
+        while not self.master.is_there():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.02)
+        for name, value in parameters.items():
+            self.master.proxy.setParam("/test", "/alone/" + name, value)
+        child = self.child(node, *self.as_roslaunch_does)
         while not self.master.knows("/alone"):
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.02)
@@ -136,6 +152,16 @@ class NodeWithoutMaster(unittest.TestCase):
         child = self.registered("sun_position_node")
         child.orphan()
         self.assertTrue(child.ends_within(LONG_s), child.heard())
+
+    def test_of_roslaunch_writes_its_results_though_others_end_it_too(self):
+        with tempfile.TemporaryDirectory() as folder:
+            child = self.registered("evaluator_node", streams=["h04", "h12"], output_dir=folder)
+            child.orphan()
+            child.await_words("roslaunch has gone")
+            child.interrupt()  # as experiment_node does, or its guard
+            self.assertTrue(child.ends_within(LONG_s), child.heard())
+            with open(os.path.join(folder, "run.yaml")) as file:
+                self.assertIn("outcome:", file.read())
 
     def test_of_roslaunch_ends_with_it_though_there_was_a_master(self):
         """As where the master is killed while roslaunch starts nodes: it ends at once, and leaves them."""
