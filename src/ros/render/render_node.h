@@ -53,9 +53,10 @@ class RenderNode {
   /// Tells people and topics what came of it.
   void report(Step step);
   void keepTiming();
+  /// What all is made from, compared with the run that this one goes on with, or written.
+  void keepInputs();
   /// Before the first pose, once all readers were heard: an evaluator that refuses its folder never is, and
   /// what the folder holds must then stay as it is.
-  void keepInputs();
   void beginFolder();
   void drawMap();
   void finish();

@@ -72,7 +72,10 @@ class Child:
 
     def await_words(self, words):
         while words.encode() not in self._heard:
-            self._heard += self._read(LONG_s) or b""
+            said = self._read(LONG_s)
+            if not said:
+                raise AssertionError("never said %s: %s" % (words, self.heard()))
+            self._heard += said
 
     def interrupt(self):
         os.kill(self._node, signal.SIGINT)
@@ -119,18 +122,19 @@ class NodeWithoutMaster(unittest.TestCase):
         self.addCleanup(child.close)
         return child
 
-    def registered(self, node, **parameters):
-        self.master.start()
+    def wait_for(self, condition):
         deadline = time.monotonic() + LONG_s
-        while not self.master.is_there():
+        while not condition():
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.02)
+
+    def registered(self, node, **parameters):
+        self.master.start()
+        self.wait_for(self.master.is_there)
         for name, value in parameters.items():
             self.master.proxy.setParam("/test", "/alone/" + name, value)
         child = self.child(node, *self.as_roslaunch_does)
-        while not self.master.knows("/alone"):
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.02)
+        self.wait_for(lambda: self.master.knows("/alone"))
         return child
 
     def test_of_roslaunch_ends_with_it(self):
