@@ -8,16 +8,33 @@ import yaml
 
 from sunlit_experiment import arguments as read
 
+ABOUT = "about/"
+NO_RUN_OF_OURS = (OSError, yaml.YAMLError, AttributeError, KeyError, RecursionError, TypeError, ValueError)
+
 
 def _settings(folder):
-    """Of the earlier run: what `all` differences and `auto` verification are, only its evaluator knows; one that was built
-    without SURF has no surf."""
+    """Texts by name; none where there is no run of ours: the evaluator will say so, if need be."""
     try:
         with open(os.path.join(folder, "run.yaml"), encoding="utf-8") as run:
             settings = yaml.safe_load(run)["settings"]
-            lists = {name: yaml.safe_load(settings[name]) for name in ("differences", "verify") if name in settings}
-            return {name: names for name, names in lists.items() if isinstance(names, list)}
-    except (OSError, yaml.YAMLError, AttributeError, KeyError, RecursionError, TypeError, ValueError):  # no run of ours; the evaluator will say so, if need be
+            return {name: text for name, text in settings.items() if isinstance(name, str) and isinstance(text, str)}
+    except NO_RUN_OF_OURS:
+        return {}
+
+
+def about(folder):
+    """What the earlier run was told about itself, as plan has it."""
+    return {name[len(ABOUT):]: text for name, text in _settings(folder).items() if name.startswith(ABOUT)}
+
+
+def _detectors(folder):
+    """Of the earlier run: what `all` differences and `auto` verification are, only its evaluator knows; one that was built
+    without SURF has no surf."""
+    settings = _settings(folder)
+    try:
+        lists = {name: yaml.safe_load(settings[name]) for name in ("differences", "verify") if name in settings}
+        return {name: names for name, names in lists.items() if isinstance(names, list)}
+    except NO_RUN_OF_OURS:
         return {}
 
 
@@ -38,7 +55,7 @@ def _rows(folder, name):
 def first_not_evaluated(folder, pairs, differences, features="{}"):
     """The first pose that frames.csv, and verified.csv where matches are verified, do not have whole; 0 where there is none.
     `pairs`: as the evaluator gets them; `differences` and `features`: as typed."""
-    settings = _settings(folder)
+    settings = _detectors(folder)
     expected = [(_rows(folder, "frames.csv"), len(settings.get("differences") or read.differences(differences, features)))]
     if settings.get("verify"):
         expected.append((_rows(folder, "verified.csv"), len(settings["verify"])))

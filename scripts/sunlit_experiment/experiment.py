@@ -80,9 +80,9 @@ class Experiment:
         """The lines that are to be said when all is done."""
         try:
             self._await_evaluator()
-            if self.inputs is not None:
-                self._await_inputs()
             rows = summary.read(self.output, self.earlier)
+            if self.inputs is not None:
+                self._await(self._are_inputs_compared)
             summary.check(rows, self.poses, self.self_test_every)
             summary.check_localised(self.output)
             # What the evaluator has, the recorder may not have yet: only the renderer's end says so. With no pose left to
@@ -141,21 +141,25 @@ class Experiment:
                 return True
             missed = sorted(self.needed & dead)
             # The renderers may leave once everything is evaluated, long before it is written to disk.
-            if set(missed) <= RENDERERS and (not missed or self._may_renderers_leave()):
+            if set(missed) <= RENDERERS and (not missed or self._may_renderers_leave(dead)):
                 return False
             raise Failure(f"{missed[0]} ended before everything was evaluated; its reason stands above")
 
         self._await(is_over)
 
-    def _await_inputs(self):
+    def _are_inputs_compared(self, dead):
         """With nothing left to evaluate only the renderer can tell whether what is there is of this world and this path."""
-        inputs = summary.inputs_in(self.output)
-        self._await(lambda dead: summary.identity(inputs) != self.inputs or "render" in dead)
-        if summary.identity(inputs) == self.inputs:
+        if summary.identity(summary.inputs_in(self.output)) != self.inputs:
+            return True
+        if "render" in dead:
             raise Failure("render ended before it had compared world and path with those of this folder; its reason stands above")
+        return False
 
-    def _may_renderers_leave(self):
+    def _may_renderers_leave(self, dead):
         """Once everything is evaluated. What the evaluator said of it may reach us a little later than them."""
+        if self.inputs is not None:  # it was from the beginning
+            self._are_inputs_compared(dead)
+            return True
         if self.progress.is_everything_evaluated():
             return True
         now = time.monotonic()

@@ -8,7 +8,7 @@ import dataclasses
 import math
 
 from sunlit_experiment import arguments as read
-from sunlit_experiment import recording
+from sunlit_experiment import recording, same_settings
 
 START_STAMP_S = 1000.0
 FRAME_RATE_HZ = 10.0
@@ -30,6 +30,7 @@ class Beginning:
     recorded: int = 0      # the first pose that no bag holds; as `evaluated` where nothing is recorded
     written: dict = dataclasses.field(default_factory=dict)  # what it wrote at its end, as summary.identities() has it
     inputs: str = ""       # the file that says what it was made from, as summary.identity() has it
+    about: dict = dataclasses.field(default_factory=dict)  # what it was told about itself, texts by name
 
     def render_at(self):
         return min(self.evaluated, self.recorded)
@@ -238,6 +239,8 @@ def _self_test_renderer(typed, given, places, beginning):
     """The second one, of each hour against itself; it is not recorded."""
     tree = _renderer(typed, given, places, beginning)
     tree["path"]["stride"] = read.whole("self_test_every", typed["self_test_every"])
+    if beginning.is_evaluated():  # it has nothing left to render, and should not bake for it
+        tree["transport"] = {"enabled": False}
     tree.update(
         resume_at=beginning.evaluated,
         exact_sky=True,
@@ -249,9 +252,11 @@ def _self_test_renderer(typed, given, places, beginning):
     return tree
 
 
-def _about(typed):
+def _about(typed, beginning):
     about = {name: str(read.flag(name, typed[name])).lower() if name in FLAGS else typed[name] for name in ABOUT}
-    return dict(about, camera=f"{_about_camera(typed)}, {typed['camera_height']} m")
+    about["camera"] = f"{_about_camera(typed)}, {typed['camera_height']} m"
+    # With nothing evaluated there is nothing that the renderer would compare files with.
+    return same_settings.as_before(about, beginning.about, has_inputs=beginning.evaluated > 0)
 
 
 def _about_camera(typed):
@@ -266,7 +271,7 @@ def _evaluator(typed, places, beginning):
             "frame_rate": FRAME_RATE_HZ, "stamp_start": START_STAMP_S, "output_dir": places["output"],
             "images": "all" if read.flag("images", typed["images"]) else "samples", "exit_when_done": True,
             "report": False,  # the experiment draws it, once its recording is complete, too
-            "about": _about(typed)}
+            "about": _about(typed, beginning)}
     if read.flag("compressed", typed["compressed"]):
         tree["image_transport"] = "compressed"
     if typed["differences"] != "all":  # else its own default

@@ -1,5 +1,7 @@
 #include "sunlit/light/world.h"
 
+#include <utility>
+
 #include "light/bake/cache/bake_key.h"
 #include "light/lamps/lamp_sets.h"
 #include "sunlit/light/illumination.h"
@@ -52,13 +54,11 @@ Illumination illumination(const World& world, const sky::Daylight& day, const La
   return light;
 }
 
-std::string fingerprint(const World& world) {
-  image::ContentHash hash;
+namespace {
+
+/// `hash`: of what a bake depends on.
+std::string withLooks(const World& world, image::ContentHash hash) {
   // With what only pictures show, and a bake need not know: tangents, and all looks.
-  if (world.transport)
-    hash = bakeKey(*world.geometry, world.transport->options());
-  else
-    addContents(*world.geometry, &hash);
   hash.add(world.geometry->tangents);
   scene::writeLooks(*world.geometry->scene,
                     [&hash](const void* data, std::size_t size) { hash.addBytes(data, size); });
@@ -74,6 +74,19 @@ std::string fingerprint(const World& world) {
     addLamps(of_body, &hash);
   }
   return hash.text();
+}
+
+}  // namespace
+
+std::string fingerprint(const World& world, const TransportOptions& options) {
+  return withLooks(world, bakeKey(*world.geometry, options));
+}
+
+std::string fingerprint(const World& world) {
+  if (world.transport) return fingerprint(world, world.transport->options());
+  image::ContentHash hash;
+  addContents(*world.geometry, &hash);
+  return withLooks(world, std::move(hash));
 }
 
 }  // namespace sunlit::light

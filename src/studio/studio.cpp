@@ -44,6 +44,11 @@ const StudioOptions& checked(const StudioOptions& options) {
   return options;
 }
 
+/// light::fingerprint() of a world that is still to be baked.
+std::string printOf(const light::World& world, const BakeOptions& bake) {
+  return bake.enabled ? light::fingerprint(world, bake.transport) : light::fingerprint(world);
+}
+
 /// What draws for the right camera: as for the left, but for the lens.
 render::RenderOptions rightRender(const StudioOptions& options) {
   render::RenderOptions right = options.render;
@@ -79,6 +84,7 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
     light::World& world = worlds_.emplace_back(
         stopwatch_.measure("load", "surfaces", [&] { return light::weathered(dry, state); }));
     if (!scene::isDry(state)) tell(reports.note, "Surfaces " + textOf(state));
+    if (reports.loaded && worlds_.size() == 1) reports.loaded(printOf(world, options.bake));
     world.transport =
         stopwatch_.measure("load", "transport", [&] { return bake(world, options.bake, reports); });
   }

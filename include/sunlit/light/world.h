@@ -16,6 +16,7 @@ struct SurfaceState;
 namespace sunlit::light {
 
 class Transport;
+struct TransportOptions;
 
 /// Cheap to copy.
 struct World {
@@ -43,5 +44,7 @@ World weathered(const World& dry, const scene::SurfaceState& state);
 /// Tells worlds apart by what decides their pictures: shape, looks, what moves, and how `transport` was
 /// baked, if there is one. 32 hexadecimal digits; the same wherever equal contents were loaded from.
 std::string fingerprint(const World& world);
+/// The same before it is baked with these.
+std::string fingerprint(const World& world, const TransportOptions& options);
 
 }  // namespace sunlit::light

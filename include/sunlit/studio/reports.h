@@ -15,6 +15,9 @@ struct Reports {
   light::BakeProgress baking;                            ///< how far a bake is, many times a second
   /// Called many times a second while another process bakes; what it throws, or `baking`, ends the work.
   std::function<void()> check = {};
+  /// What Studio has loaded and is about to bake, with its light::fingerprint(); what it throws ends the
+  /// work.
+  std::function<void(const std::string& fingerprint)> loaded = {};
 };
 
 }  // namespace sunlit::studio

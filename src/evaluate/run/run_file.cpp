@@ -136,8 +136,7 @@ bool holdsSettings(const std::string& path) {
   return !settingsIn(path).empty();
 }
 
-void requireSameSettings(const std::string& path, const Settings& settings,
-                         const std::set<std::string>& except) {
+void requireSameSettings(const std::string& path, const Settings& settings) {
   const std::map<std::string, std::string> old_settings = settingsIn(path);
   if (old_settings.empty()) return;
   // One line, whatever they hold.
@@ -154,8 +153,7 @@ void requireSameSettings(const std::string& path, const Settings& settings,
   for (const auto& item : settings) {
     const auto found = old_settings.find(item.first);
     if (found == old_settings.end()) refuse(item.first, "not given", item.second);
-    if (except.count(item.first) == 0 && !areTheSame(found->second, item.second))
-      refuse(item.first, found->second, item.second);
+    if (!areTheSame(found->second, item.second)) refuse(item.first, found->second, item.second);
   }
   for (const auto& item : old_settings) {
     if (current.count(item.first) == 0) refuse(item.first, item.second, "not given");
@@ -196,12 +194,8 @@ void requireNoRun(const std::string& folder) {
 }
 
 void claimFolder(const std::string& folder, const Settings& settings) {
-  // Files, whose contents the renderer compares with inputs.yaml, wherever they lie.
-  const bool has_inputs = std::filesystem::exists(folder + "/inputs.yaml");
   try {
-    requireSameSettings(folder + "/run.yaml", settings,
-                        has_inputs ? std::set<std::string>{"about/world", "about/path", "about/robot"}
-                                   : std::set<std::string>());
+    requireSameSettings(folder + "/run.yaml", settings);
   } catch (const std::invalid_argument&) {
     if (holdsResults(folder)) throw;
     for (const char* name :

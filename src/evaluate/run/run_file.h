@@ -1,7 +1,6 @@
 /// run.yaml: what was asked for, with which versions, and what came of it.
 #pragma once
 
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,9 +18,8 @@ Settings settingsOf(const EvaluationOptions& options);
 bool holdsSettings(const std::string& path);
 
 /// Throws std::invalid_argument, naming key and both values, where the run.yaml at `path` has other settings.
-/// Nothing where there is none. Values of the keys `except` may differ.
-void requireSameSettings(const std::string& path, const Settings& settings,
-                         const std::set<std::string>& except = {});
+/// Nothing where there is none.
+void requireSameSettings(const std::string& path, const Settings& settings);
 
 /// The same of `folder`/run.yaml, but a run that ended before anything came binds nobody to its settings:
 /// what it left is removed.

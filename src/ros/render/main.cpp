@@ -1,3 +1,4 @@
+#include <ros/console.h>
 #include <tbb/global_control.h>
 
 #include <exception>
@@ -25,6 +26,9 @@ int run(const ros::NodeHandle& private_node) {
     return RenderNode(node, private_node, options, conditions).run();
   } catch (const Interrupted&) {
     return 0;  // as between two pictures
+  } catch (const NothingLeft& reason) {
+    ROS_INFO("World and path are those of the run in this folder: %s", reason.what());
+    return 0;
   }
 }
 

@@ -73,6 +73,14 @@ PathSourceOptions pathOfCamera(const RenderNodeOptions& options, const std::opti
   return path;
 }
 
+std::unique_ptr<RobotPlaces> placesOf(const std::optional<scene::Robot>& robot,
+                                      const RenderNodeOptions& options) {
+  if (!robot) return nullptr;
+  std::optional<double> camera_height_m;
+  if (!options.camera.follow_tf) camera_height_m = options.path.sampling.height_m;
+  return std::make_unique<RobotPlaces>(*robot, options.robot, options.cameraFrames(), camera_height_m);
+}
+
 }  // namespace
 
 RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
@@ -90,16 +98,12 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
       path_(options.camera.follow_tf ? nullptr
                                      : std::make_unique<PathSource>(node, pathOfCamera(options, robot_model_),
                                                                     options.frames.map)),
+      robot_(placesOf(robot_model_, options)),
       sky_(options.sky, reports()),
       studio_(studioOptions(options, conditions), robot_model_, reports()),
       streams_(conditions, streamOptions(options), studio_, sky_),
       paused_(!options.pacing.autostart) {
   sky_.over(studio_.worlds());
-  if (robot_model_) {
-    robot_ = std::make_unique<RobotPlaces>(
-        *robot_model_, options_.robot, options_.cameraFrames(),
-        path_ ? std::optional<double>(options_.path.sampling.height_m) : std::nullopt);
-  }
   if (path_) {
     auto run = std::make_unique<PathRun>(node_, options_.pacing,
                                          PathRun::Parts{*path_, streams_, robot_.get(), clock_.get()});
@@ -118,8 +122,6 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
                private_node_.advertiseService("pause", &RenderNode::onPause, this),
                private_node_.advertiseService("render_view", &RenderNode::onView, this)};
   throwIfInterrupted();
-  // Before others are waited for, who may have nothing to do any more.
-  if (files_ && files_->goesOn() && path_ && path_->ready()) keepInputs();
 }
 
 studio::Reports RenderNode::reports() {
@@ -133,7 +135,16 @@ studio::Reports RenderNode::reports() {
     activity_.say("baking", "", {share, seconds_left});
     diagnostics_.update();
   };
+  reports.loaded = [this](const std::string& print) { onLoaded(print); };
   return reports;
+}
+
+void RenderNode::onLoaded(const std::string& world_print) {
+  world_print_ = world_print;
+  if (!files_ || !files_->goesOn() || !path_ || !path_->ready()) return;
+  keepInputs();
+  const PacingOptions& pacing = options_.pacing;
+  if (pacing.exit_when_done && pacing.resume_at >= path_->end() - path_->first()) throw NothingLeft();
 }
 
 int RenderNode::run() {
@@ -215,8 +226,8 @@ void RenderNode::keepTiming() {
 
 void RenderNode::keepInputs() {
   const studio::StudioOptions seen = options_.studioOptions();
-  files_->keepInputs({light::fingerprint(studio_.world()), path_->fingerprint(),
-                      cameraPrint(seen.render, seen.right), robot_ ? robot_->print() : std::string()});
+  files_->keepInputs({world_print_, path_->fingerprint(), cameraPrint(seen.render, seen.right),
+                      robot_ ? robot_->print() : std::string()});
   inputs_kept_ = true;
 }
 

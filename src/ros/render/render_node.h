@@ -32,11 +32,18 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted while the world was loaded"; }
 };
 
+/// Ends a run into a folder for which nothing is left to render, before a bake that nobody would see.
+class NothingLeft : public std::exception {
+ public:
+  const char* what() const noexcept override { return "nothing is left to render"; }
+};
+
 /// ROS callbacks have their turn between two frames, on the thread that renders: what they change never
 /// changes within a frame.
 class RenderNode {
  public:
-  /// Loads and bakes, which takes its time; throws Interrupted where ROS shuts down meanwhile.
+  /// Loads and bakes, which takes its time; throws Interrupted where ROS shuts down meanwhile, and
+  /// NothingLeft once the folder of a run that is to end when it is done was found to be of this world.
   RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
              const RenderNodeOptions& options, const RenderConditions& conditions);
 
@@ -53,6 +60,8 @@ class RenderNode {
   /// Tells people and topics what came of it.
   void report(Step step);
   void keepTiming();
+  /// Refuses to go on with what was made from something else before that takes any time.
+  void onLoaded(const std::string& world_print);
   /// What all is made from, compared with the run that this one goes on with, or written.
   void keepInputs();
   /// Before the first pose, once all readers were heard: an evaluator that refuses its folder never is, and
@@ -73,11 +82,13 @@ class RenderNode {
   std::unique_ptr<ClockSource> clock_;       // where this node is the time of all
   std::optional<scene::Robot> robot_model_;  // where the options name one
   std::unique_ptr<PathSource> path_;         // not where a TF frame is followed
+  std::unique_ptr<RobotPlaces> robot_;       // where there is one
+  std::string world_print_;                  // light::fingerprint() of the world, once it is loaded
+  bool inputs_kept_ = false;
   studio::Sky sky_;
   studio::Studio studio_;
   Streams streams_;
-  std::unique_ptr<RobotPlaces> robot_;  // where there is one
-  PathRun* path_run_ = nullptr;         // run_ where it follows a path
+  PathRun* path_run_ = nullptr;  // run_ where it follows a path
   std::unique_ptr<Run> run_;
   PoseLog pose_log_;
   WaitLog wait_log_;
@@ -85,8 +96,7 @@ class RenderNode {
   std::optional<std::chrono::steady_clock::time_point> timing_kept_;  // when it was written last
   bool map_due_ = false;
   bool has_begun_ = false;  // and may write into its folder
-  bool inputs_kept_ = false;
-  bool finished_ = false;  // all is rendered
+  bool finished_ = false;   // all is rendered
   std::vector<ros::ServiceServer> services_;
 };
 

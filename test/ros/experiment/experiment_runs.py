@@ -18,6 +18,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..
 from screen import Screen  # noqa: E402
 
 OTHER_INPUTS = "inputs.yaml: the run in this folder was made from something else"
+BAKED = "Sky light and bounced light at"
 
 
 class ExperimentRuns(unittest.TestCase):
@@ -178,6 +179,7 @@ class ExperimentRuns(unittest.TestCase):
         again = small_experiment(output, images="true", record="true")
         self.assertEqual(again.end(), 0, again.said())
         self.assertIn("experiment: recorded 20 poses in 1 bag", again.said())
+        self.assertIn("done; an earlier run had evaluated all; results in ", again.said())
         self.assertEqual(self.bytes_of(output, "frames.csv"), self.bytes_of(self.output, "frames.csv"))
 
     def test_on_a_terminal_the_line_stays_in_place(self):
@@ -239,26 +241,37 @@ class ExperimentRuns(unittest.TestCase):
         before = [self.bytes_of(output, name) for name in names]
 
         def started_again(**changes):
-            again = small_experiment(output, self_test="false", **dict(dict(poses=4, world=world), **changes))
+            # Of a cache of its own, in which there is no bake.
+            again = small_experiment(output, {"SUNLIT_CACHE_DIR": os.path.join(self.folder, "cache")}, self_test="false",
+                                     verbose="true", **dict(dict(poses=4, world=world), **changes))
             return again.end(), again.said(), [self.bytes_of(output, name) for name in names]
 
         status, said, after = started_again(poses=6)
         self.assertNotEqual(status, 0)
         self.assertIn("holds a run of 4 poses that has ended", said)
         self.assertEqual(after, before)
-        status, said, after = started_again(spacing="0.50", hours="[ 10,12.0]", ev100="14", world=os.path.relpath(world))
+        moved = self.own_world("moved")
+        status, said, after = started_again(spacing="0.50", hours="[ 10,12.0]", ev100="14", night="True",
+                                            world=os.path.relpath(moved))
         self.assertEqual(status, 0, said)
         self.assertIn("done; an earlier run had evaluated all; results in ", said)
+        self.assertIn("nothing is left to render", said)
+        self.assertNotIn(BAKED, said)
         self.assertEqual(after[0], before[0])
-        self.change(world)
-        status, said, after = started_again()
+        settings = lambda files: yaml.safe_load(files[1])["settings"]
+        self.assertEqual(settings(after), settings(before))  # in the words of the run that made it
+        self.change(moved)
+        status, said, after = started_again(world=moved)
         self.assertNotEqual(status, 0, said)
         self.assertIn(OTHER_INPUTS, said)
         self.assertIn("experiment: FAILED: render ended before it had compared", said)
+        self.assertNotIn(BAKED, said)
         self.assertEqual(after[0], before[0])
+        self.assertEqual(settings(after), settings(before))
 
-    def own_world(self):
-        world = os.path.join(self.folder, "mine.urdf")
+    def own_world(self, folder="."):
+        world = os.path.join(self.folder, folder, "mine.urdf")
+        os.makedirs(os.path.dirname(world), exist_ok=True)
         shutil.copy(WORLD, world)
         return world
 

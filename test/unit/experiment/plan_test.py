@@ -413,6 +413,14 @@ class Plan(unittest.TestCase):
                 with open(os.path.join(folder, "frames.csv"), "w", encoding="utf-8") as file:
                     file.write("pose,stamp,a,b,difference\n²,1000.0,h04,h12,orb\n" + "9" * 5000 + ",1000.0,h04,h12,orb\n")
                 self.assertEqual(earlier_run.first_not_evaluated(folder, arguments.pairs(["h04", "h12"], False, 1), "[orb]"), 0)
+                self.assertEqual(earlier_run.about(folder), {})
+
+    def test_what_an_earlier_run_was_told_about_itself_is_in_its_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(earlier_run.about(folder), {})
+            with open(os.path.join(folder, "run.yaml"), "w", encoding="utf-8") as file:
+                file.write("settings:\n  ratio: '0.5'\n  about/world: 'it''s mine.sdf'\n  about/ev100: '14.0'\n  3: x\n")
+            self.assertEqual(earlier_run.about(folder), {"world": "it's mine.sdf", "ev100": "14.0"})
 
     def test_rendering_waits_for_a_recorder(self):
         self.assertEqual(planned()["render"]["subscribers"], {"images": 1, "poses": 1, "truth": 1, "others": 0, "of": ["/evaluator"]})
@@ -439,6 +447,49 @@ class Plan(unittest.TestCase):
     def test_flags_are_told_in_one_spelling(self):
         for spelling in ("True", "1"):
             self.assertEqual(planned(noise=spelling)["evaluator"]["about"]["noise"], "true")
+
+    def told_again(self, before, evaluated=5, **typed):
+        """What the evaluator is told where a run was told `before` about itself."""
+        return planned(plan.Beginning(20, evaluated=evaluated, about=before), **typed)["evaluator"]["about"]
+
+    def test_what_is_spelt_otherwise_is_told_as_before(self):
+        before = self.told_again({}, hours="[5, 13]", night="true", glare="0.0", world="mine.sdf")
+        self.assertEqual(before["night"], "true")
+        for typed in ({}, {"ev100": "14"}, {"spacing": " 1.00"}, {"hours": "[5.0,13]"}, {"night": "True"},
+                      {"night": "1"}, {"timezone": "3.0"}, {"site": "[55.7921150, 49.122254,90.0]"}, {"world": "./mine.sdf"},
+                      {"conditions": "{h05: {hour: 5}, h13: {hour: 13}}", "hours": "[4, 12, 20]"}):
+            again = self.told_again(before, **{"hours": "[5, 13]", "world": "mine.sdf", **typed})
+            self.assertEqual(again, before, typed)
+        for typed in ({"ev100": "14.1"}, {"night": "false"}, {"hours": "[5, 13.5]"}, {"hours": "[5]"},
+                      {"glare": "0.01"}, {"timezone": "4"}):
+            again = self.told_again(before, **{"hours": "[5, 13]", "world": "mine.sdf", **typed})
+            self.assertEqual([name for name, text in again.items() if text != before[name]], list(typed))
+
+    def test_conditions_are_the_same_in_any_order_of_what_differs(self):
+        typed = "{grey: {hour: 12, cover: 8, overcast: cie}, noon: {hour: 12.5}}"
+        before = self.told_again({}, conditions=typed)
+        for again in (typed, '{"grey": {overcast: cie, cover: 8.0, hour: 12}, noon: {hour: 12, minute: 30}}'):
+            self.assertEqual(self.told_again(before, conditions=again), before)
+        other = typed.replace("8", "7")
+        self.assertEqual(self.told_again(before, conditions=other)["conditions"], other)
+
+    def test_a_file_may_have_moved_once_what_it_holds_is_compared(self):
+        typed = dict(world="/here/mine.sdf", calibration="/here/cam.yaml", camera_height="1.0")
+        before = {**self.told_again({}, **typed), "world": "mine.sdf", "camera": "cam.yaml, 1 m"}  # as it was typed once
+        self.assertEqual(self.told_again(before, **typed), before)
+        # Nor may a run that the renderer then refuses be told of as one of another world.
+        other = self.told_again(before, **{**typed, "world": "other.sdf", "path": "mine.csv", "robot": "rover"})
+        self.assertEqual(other, before)
+        afresh = self.told_again(before, evaluated=0, **typed)
+        self.assertEqual((afresh["world"], afresh["camera"]), ("/here/mine.sdf", "/here/cam.yaml, 1.0 m"))
+        for changed in ({"camera_height": "1.1"}, {"calibration": "/here/cam2.yaml"}):
+            self.assertNotEqual(self.told_again(before, **{**typed, **changed})["camera"], before["camera"])
+
+    def test_with_nothing_left_the_self_test_does_not_bake(self):
+        for evaluated, transport in ((19, {"final_gather": 2}), (20, {"enabled": False})):
+            tree = planned(plan.Beginning(20, evaluated=evaluated), final_gather="2")
+            self.assertEqual(tree["self_test"]["render"]["transport"], transport)
+            self.assertEqual(tree["render"]["transport"], {"final_gather": 2})
 
     def test_where_all_is_evaluated_only_the_recorder_is_waited_for(self):
         tree = planned(plan.Beginning(20, evaluated=20, recorded=8), record="true")

@@ -54,6 +54,15 @@ TEST(Fingerprint, IsOfTheContentsAlone) {
   EXPECT_EQ(named.print(), Contents().print());
 }
 
+TEST(Fingerprint, IsKnownBeforeTheBake) {
+  const Contents contents;
+  Contents baked = contents;
+  baked.baked = true;
+  const World world(std::make_shared<const scene::Scene>(contents.scene));
+  EXPECT_EQ(fingerprint(world, contents.options), baked.print());
+  EXPECT_NE(fingerprint(world), baked.print());
+}
+
 TEST(Fingerprint, ChangesWithAllThatPicturesShow) {
   const std::vector<std::function<void(Contents&)>> changes = {
       [](Contents&) {},

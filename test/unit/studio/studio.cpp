@@ -422,6 +422,45 @@ TEST(Studio, TellsWhatItLoadsToWhoListens) {
       << notes[0];
 }
 
+/// Prints that are told of before anything is baked, and then what the Studio itself has.
+std::vector<std::string> printsOf(StudioOptions options) {
+  std::vector<std::string> prints;
+  Reports reports;
+  reports.loaded = [&](const std::string& print) { prints.push_back(print); };
+  reports.baking = [&](double, double) { EXPECT_EQ(prints.size(), 1u); };
+  const Studio studio(options, std::nullopt, reports);
+  prints.push_back(light::fingerprint(studio.world()));
+  return prints;
+}
+
+TEST(Studio, TellsWhatItIsAboutToBake) {
+  const TemporaryFolder folder;
+  StudioOptions options = boxes();
+  const std::vector<std::string> open = printsOf(options);
+  ASSERT_EQ(open.size(), 2u);
+  EXPECT_EQ(open[0], open[1]);
+  options.bake.enabled = true;
+  options.bake.transport.samples = 1000;
+  options.bake.cache_dir = folder.file("cache");
+  options.surfaces = {{}, {}};
+  options.surfaces[0].wet = 1.0;
+  const std::vector<std::string> wet = printsOf(options);
+  ASSERT_EQ(wet.size(), 2u);
+  EXPECT_EQ(wet[0], wet[1]);
+}
+
+TEST(Studio, BakesNothingForWhoRefusesWhatIsLoaded) {
+  const TemporaryFolder folder;
+  StudioOptions options = boxes();
+  options.bake.enabled = true;
+  options.bake.cache_dir = folder.file("cache");
+  Reports reports;
+  reports.loaded = [](const std::string&) { throw std::runtime_error("another world"); };
+  reports.baking = [](double, double) { ADD_FAILURE(); };
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { Studio studio(options, std::nullopt, reports); }),
+            "another world");
+}
+
 /// A triangle, and a lamp of each of these groups.
 light::World lampsOf(const std::vector<std::string>& groups) {
   auto scene = std::make_shared<scene::Scene>();
