@@ -9,7 +9,7 @@ import re
 import numpy as np
 import yaml
 
-from . import choice, comparison_rows, lost, names, queries, verified_rows
+from . import choice, comparison_rows, lost_rows, names, queries, verified_rows
 from .csv_rows import ReportError, by_pose, number, opened, optional_whole, rows, whole
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
@@ -84,7 +84,7 @@ class Output:
     images: dict  # condition -> {pose: file}
     verified: verified_rows.Verified
     matches: dict  # drawn, a-b/detector -> {pose: file}
-    lost: dict  # (a, b, detector) -> lost.Lost
+    lost: dict  # (a, b, detector) -> lost_rows.Lost
     problems: list
     timing: list
 
@@ -171,7 +171,7 @@ def read_output(folder):
         images=find_images(os.path.join(folder, "images")),
         verified=verified_rows.read(folder),
         matches=find_images(os.path.join(folder, "matches")),
-        lost=lost.read(os.path.join(folder, "lost_features.csv")),
+        lost=lost_rows.read(os.path.join(folder, "lost_features.csv")),
         positions=queries.read_positions(os.path.join(folder, "localisation_poses.csv")),
         problems=list(rows(os.path.join(folder, "problems.csv"), PROBLEMS, {"pose": optional_whole})),
         timing=[row for file in sorted(glob.glob(os.path.join(glob.escape(folder), "timing*.csv")))

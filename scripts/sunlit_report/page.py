@@ -1,6 +1,6 @@
 """Puts the page together."""
 
-from . import comparison_rows, comparisons, figures, localisation, lost, map_figure, matrices, names, paper, pictures, tables, templating, verified, warnings
+from . import comparison_rows, comparisons, figures, localisation, lost, lost_rows, map_figure, matrices, names, paper, pictures, tables, templating, verified, warnings
 from . import findings as judge
 
 SHOWN_PROBLEMS = 100
@@ -53,7 +53,7 @@ def plots(output):
         "over_elevation": _uri(localisation.over_elevation(output)),
         "found_on_map": _found_on_map(output),
         "lost": pictures.svg_uri(lost.heat_maps(output)) if output.lost else None,
-        "lost_rows": lost.table_rows(output), "lost_header": lost.TABLE_HEADER, "least_features": lost.LEAST_FEATURES,
+        "lost_rows": lost.table_rows(output), "lost_header": lost.TABLE_HEADER, "least_features": lost_rows.LEAST_FEATURES,
         "map": pictures.svg_uri(map_figure.path_on_map(output)) if output.path else None,
     }
 

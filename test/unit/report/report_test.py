@@ -24,8 +24,8 @@ sys.path[:0] = [HERE, SCRIPTS]
 
 import output_folder as made  # noqa: E402
 from sunlit_report import atlas_figures, atlas_page, atlas_rows, choice, comparisons, files, findings  # noqa: E402
-from sunlit_report import figures, localisation, lost, map_figure, names, page, pictures, queries, tables, verified  # noqa: E402
-from sunlit_report import matrices, verified_rows, warnings  # noqa: E402
+from sunlit_report import figures, localisation, lost, lost_rows, map_figure, names, page, pictures, queries, tables  # noqa: E402
+from sunlit_report import matrices, verified, verified_rows, warnings  # noqa: E402
 from sunlit_report.csv_rows import ReportError  # noqa: E402
 
 REPORT = os.path.join(SCRIPTS, "report")
@@ -529,18 +529,18 @@ class Lost(InFolder):
 
     def test_what_cannot_be_is_refused_with_its_line(self):
         self.write("frames.csv", made.frames())
-        self.write("lost_features.csv", [lost.HEADER, "h04,h12,sift,40,0,0,5,6"])
+        self.write("lost_features.csv", [lost_rows.HEADER, "h04,h12,sift,40,0,0,5,6"])
         self.assert_refused("lost_features.csv:2: column, row and lost must be below 16, 12 and features")
 
     def test_pictures_without_features_lose_none_and_keep_none(self):
         self.write("frames.csv", made.frames())
-        self.write("lost_features.csv", [lost.HEADER, "h04,h12,sift,40,0,0,0,0", "h12,h20,sift,40,0,0,50,10"])
+        self.write("lost_features.csv", [lost_rows.HEADER, "h04,h12,sift,40,0,0,0,0", "h12,h20,sift,40,0,0,50,10"])
         output = self.read()
         self.assertEqual([cells[-1] for cells in lost.table_rows(output)], ["–", "20.0"])
         lost.heat_maps(output)
 
     def test_of_many_pairs_those_that_lose_most_are_shown(self):
-        some = {(f"h{k:02d}", "h23", "sift"): lost.Lost(1, np.full((12, 16), 100), np.full((12, 16), k)) for k in range(9)}
+        some = {(f"h{k:02d}", "h23", "sift"): lost_rows.Lost(1, np.full((12, 16), 100), np.full((12, 16), k)) for k in range(9)}
         self.assertEqual([a for a, _ in lost.shown_pairs(some)], [f"h{k:02d}" for k in range(3, 9)])
         with mock.patch.object(lost, "shown_pairs", wraps=lost.shown_pairs) as asked:
             self.assertEqual(len(lost.table_rows(types.SimpleNamespace(lost=some))), 6)
@@ -736,7 +736,7 @@ class Page(InFolder):
                 output.verified.means[(*pair, detector)] = {name: mean for name in verified_rows.MEASURES}
                 output.matches["-".join(pair) + "/" + detector] = {0: noise, 49: noise}
                 cells = random.integers(1, 100, (12, 16))
-                output.lost[(*pair, detector)] = lost.Lost(991, cells, cells // 2)
+                output.lost[(*pair, detector)] = lost_rows.Lost(991, cells, cells // 2)
         for hour in hours:
             output.images[hour] = {pose: noise for pose in (0, 248, 495, 742, 990)}
             for detector in made.METHODS:
