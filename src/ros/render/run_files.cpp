@@ -81,9 +81,15 @@ void RunFiles::keepInputs(const RunInputs& inputs) const {
   const std::string then{std::istreambuf_iterator<char>(file), {}};
   const std::string differs = differingLine(now, then);
   if (differs.empty()) return image::writeFileAtomically(path, then);
+  if (then.empty())
+    throw std::runtime_error(path + ": is not there, so that nobody knows what the run in this folder was " +
+                             "made from; choose another output folder");
+  const bool is_of_another_version = differs.rfind("sunlit: ", 0) == 0;
   throw std::runtime_error(
       path + ": the run in this folder was made from something else: now \"" + differs +
-      "\" is no line of this file; choose another output folder, or what it was begun with");
+      "\" is no line of this file; choose another output folder, or what it was begun with" +
+      (is_of_another_version ? " (its results stay good: `rosrun sunlit report` draws their report again)"
+                             : ""));
 }
 
 void RunFiles::keepRasterizer(const std::string& rasterizer) const {

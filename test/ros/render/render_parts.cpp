@@ -243,9 +243,13 @@ TEST_F(RunFolder, IsOnlyGoneOnWithFromTheSameInputs) {
   const std::string ours = "sunlit: '" + studio::pictureMaker();
   ASSERT_EQ(text.compare(0, ours.size(), ours), 0) << text;
   std::ofstream(folder_ + "/inputs.yaml") << text.insert(ours.size(), "0");  // other pictures
-  EXPECT_NE(keep(true, {"89", "ab", "cd", ""}).find(ours), std::string::npos);
+  const std::string of_another_version = keep(true, {"89", "ab", "cd", ""});
+  EXPECT_NE(of_another_version.find(ours), std::string::npos) << of_another_version;
+  EXPECT_NE(of_another_version.find("`rosrun sunlit report`"), std::string::npos) << of_another_version;
   std::filesystem::remove(folder_ + "/inputs.yaml");
-  EXPECT_NE(keep(true, {"89", "ab", "cd", ""}), "");  // nobody knows any more
+  const std::string of_nobody_knows_what = keep(true, {"89", "ab", "cd", ""});
+  EXPECT_NE(of_nobody_knows_what.find("inputs.yaml: is not there"), std::string::npos)
+      << of_nobody_knows_what;
 }
 
 TEST_F(RunFolder, NamesTheLineOfATimeSheetThatItCannotRead) {
