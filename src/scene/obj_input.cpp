@@ -36,17 +36,19 @@ void requireNoCommas(const std::string& path, const std::string& text) {
   });
 }
 
+bool isBlank(char character) {
+  return character == ' ' || character == '\t';
+}
+
 /// How many words a line of a vertex has behind its first one; 0 of other lines, and of one that goes on in
 /// the next.
 std::size_t wordsOfVertex(const std::string& line) {
-  if (line.size() < 2 || line[0] != 'v' || (line[1] != ' ' && line[1] != '\t')) return 0;
+  if (line.size() < 2 || line[0] != 'v' || !isBlank(line[1])) return 0;
   const std::size_t end = std::min(line.find('#'), line.size());
   std::size_t words = 0;
   for (std::size_t i = 1; i < end; ++i) {
     if (line[i] == '\\') return 0;
-    const bool is_blank = line[i] == ' ' || line[i] == '\t';
-    const bool was_blank = line[i - 1] == ' ' || line[i - 1] == '\t';
-    words += !is_blank && was_blank ? 1 : 0;
+    words += !isBlank(line[i]) && isBlank(line[i - 1]) ? 1 : 0;
   }
   return words;
 }
@@ -86,6 +88,44 @@ std::string withColorsOfAll(const std::string& text) {
   return colored;
 }
 
+/// Up to a # that begins it or follows a blank.
+std::string withoutComment(const std::string& line) {
+  for (std::size_t at = line.find('#'); at != std::string::npos; at = line.find('#', at + 1)) {
+    if (at == 0 || isBlank(line[at - 1])) return line.substr(0, at);
+  }
+  return line;
+}
+
+/// A 0 before each point that begins a word.
+std::string withLeadingZeros(const std::string& line) {
+  std::string mended;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '.' && (i == 0 || isBlank(line[i - 1]))) mended += '0';
+    mended += line[i];
+  }
+  return mended;
+}
+
+/// Vertices and faces as Assimp 5.2 reads them: it stops at comments behind faces, counts words of comments
+/// that begin as numbers do, does not count numbers that begin with a point, and wants two of `vt`.
+std::string withPlainLines(const std::string& text) {
+  static const std::set<std::string> numbers = {"v", "vn", "vt"}, indices = {"f", "l", "p"};
+  std::string plain;
+  std::string first;     // word of the line
+  bool goes_on = false;  // in the next line
+  forEachObjLine(text, [&](const std::string& line, std::size_t) {
+    if (!goes_on) first = line.substr(0, line.find_first_of(" \t"));
+    const bool is_numbers = numbers.count(first) == 1, is_whole = !goes_on;
+    std::string mended = is_numbers || indices.count(first) == 1 ? withoutComment(line) : line;
+    if (is_numbers) mended = withLeadingZeros(mended);
+    const std::size_t last = mended.find_last_not_of(" \t");
+    goes_on = last != std::string::npos && mended[last] == '\\';
+    if (first == "vt" && is_whole && !goes_on && wordsOfLine(mended).size() == 2) mended += " 0";
+    plain += mended + '\n';
+  });
+  return plain;
+}
+
 std::string withoutMark(const std::string& text) {
   return text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? text.substr(3) : text;
 }
@@ -95,7 +135,7 @@ std::string withoutMark(const std::string& text) {
 Assimp::IOStream* ObjInput::Open(const char* path, const char* mode) {
   if (!Exists(path)) return DefaultIOSystem::Open(path, mode);
   const std::string text = withoutMark(contentOf(path));
-  if (extensionOf(path) == ".obj") return streamOf(withColorsOfAll(text));
+  if (extensionOf(path) == ".obj") return streamOf(withColorsOfAll(withPlainLines(text)));
   return streamOf(readableMtl(text, path));
 }
 
