@@ -272,16 +272,16 @@ void warnOfLamps(const aiScene& scene, const std::string& file, SceneBuilder& bu
                  std::to_string(lamps) + " in " + file);
 }
 
-/// The files of its libraries; what of them is lost is named.
-std::vector<std::string> readLibraries(const std::string& file, SceneBuilder& builder) {
-  const ObjLibraries libraries = librariesOfObj(file);
+/// What of them is lost is named.
+ObjLibraries readLibraries(const std::string& file, SceneBuilder& builder) {
+  ObjLibraries libraries = librariesOfObj(file);
   for (const std::string& material : libraries.missing)
     builder.warn("materials are not there, and neutral ones stand for them", material);
   for (const std::string& material : libraries.not_rendered) builder.warn(kNotRendered, material);
   for (const std::string& library : libraries.placed)
     builder.warn("libraries of OBJ shift textures or repeat them by -o, -s or -t, which is not read",
                  library);
-  return libraries.files;
+  return libraries;
 }
 
 /// Assimp would find no reader for a folder, and miss anything but content in an empty file.
@@ -315,7 +315,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   const bool gltf = extension == ".gltf" || extension == ".glb";
   Assimp::Importer importer;
   std::optional<GltfMaterials> gltf_materials;
-  std::vector<std::string> libraries;
+  ObjLibraries libraries;
   if (gltf) {
     gltf_materials.emplace(file, builder);
     importer.SetIOHandler(gltf_materials->input().release());
@@ -339,7 +339,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
       *scene,
       MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
                       gltf ? gltf_materials->order(namesOfMaterials(*scene)) : std::vector<std::size_t>(),
-                      std::move(libraries)});
+                      std::move(libraries.files), std::move(libraries.materials)});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
   const bool y_up = (gltf || collada) && up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();

@@ -4,6 +4,7 @@
 #include <assimp/scene.h>
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct MeshFileContext {
   std::vector<std::size_t> gltf_order = {};  ///< GltfMaterials::order() of a glTF file
   std::vector<std::string> libraries =
       {};  ///< of materials of an OBJ file, beside which pictures may be, too
+  std::set<std::string> obj_materials = {};  ///< names of those that these libraries have
 };
 
 /// A material in the builder, and the texture coordinates that it wants of its meshes.

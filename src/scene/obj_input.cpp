@@ -140,7 +140,7 @@ Assimp::IOStream* ObjInput::Open(const char* path, const char* mode) {
 }
 
 ObjLibraries librariesOfObj(const std::string& file) {
-  std::set<std::string> used, known;
+  std::set<std::string> used;
   std::string missing;
   ObjLibraries libraries;
   const std::filesystem::path path(file);
@@ -157,14 +157,14 @@ ObjLibraries librariesOfObj(const std::string& file) {
     }
     libraries.files.push_back(library.string());
     const MtlContent content = contentOfMtl(withoutMark(contentOf(library.string())), library.string());
-    known.insert(content.materials.begin(), content.materials.end());
+    libraries.materials.insert(content.materials.begin(), content.materials.end());
     libraries.not_rendered.insert(libraries.not_rendered.end(), content.not_rendered.begin(),
                                   content.not_rendered.end());
     if (content.is_placed) libraries.placed.push_back(library.string());
   });
   for (const std::string& material : used) {
     const bool is_none = material == "None" || material == "(null)";  // as exporters write it
-    if (!is_none && known.count(material) == 0)
+    if (!is_none && libraries.materials.count(material) == 0)
       libraries.missing.push_back(material + " of " + file +
                                   (missing.empty() ? "" : ", whose library is missing: " + missing));
   }

@@ -3,6 +3,7 @@
 
 #include <assimp/DefaultIOSystem.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ class ObjInput : public Assimp::DefaultIOSystem {
 /// The libraries of materials of an OBJ file, what they do not have, and what of them is lost.
 struct ObjLibraries {
   std::vector<std::string> files;
+  std::set<std::string> materials;        ///< names of those that they have
   std::vector<std::string> missing;       ///< materials that it uses; each with what is known of why
   std::vector<std::string> not_rendered;  ///< MtlContent::not_rendered
   std::vector<std::string> placed;        ///< libraries that shift textures or say how often they repeat

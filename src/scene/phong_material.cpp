@@ -71,9 +71,26 @@ std::string pictureOf(const aiMaterial& source, aiTextureType type) {
   return name.C_Str();
 }
 
-/// What Assimp gives a mesh whose file has none.
-bool isBare(const aiMaterial& source) {
-  return nameOf(source) == AI_DEFAULT_MATERIAL_NAME;
+bool isOfLibrary(const aiMaterial& source, const MeshFileContext& context) {
+  return context.obj_materials.count(nameOf(source)) == 1;
+}
+
+/// Whether Assimp gave it to a mesh whose file has none: files may call theirs alike.
+bool isBare(const aiMaterial& source, const MeshFileContext& context) {
+  if (nameOf(source) != AI_DEFAULT_MATERIAL_NAME || isOfLibrary(source, context)) return false;
+  int shading = 0;  // which all effects of COLLADA have
+  return extensionOf(context.file) != ".dae" ||
+         source.Get(AI_MATKEY_SHADING_MODEL, shading) != aiReturn_SUCCESS;
+}
+
+/// Whether its colour is Assimp's own. STL and PLY may have one, and come out as white as nothing is where
+/// they have none.
+bool isInvented(const aiMaterial& source, const MeshFileContext& context) {
+  const std::string extension = extensionOf(context.file);
+  if (extension == ".obj") return !isOfLibrary(source, context);
+  aiColor4D color(1.0f, 1.0f, 1.0f, 1.0f);
+  source.Get(AI_MATKEY_COLOR_DIFFUSE, color);
+  return isBare(source, context) && (extension == ".dae" || std::min({color.r, color.g, color.b}) >= 1.0f);
 }
 
 bool hasColors(const aiScene& scene) {
@@ -92,9 +109,8 @@ class PhongReader {
   MeshLook read() {
     readColors();
     readColorMaps();
-    // STL and PLY come out as white as nothing is.
-    if (isBare(source_) && material_.base_color.value.minCoeff() >= 1.0f && !hasColors(scene_))
-      material_.base_color = kNeutral;
+    if (isInvented(source_, context_))
+      material_.base_color = hasColors(scene_) ? LinearRgb(1.0f, 1.0f, 1.0f) : kNeutral;
     material_.base_color.value = material_.base_color.value.max(0.0f).min(1.0f);
     readMaps();
     const float opacity = opacityOf(source_);
@@ -115,7 +131,7 @@ class PhongReader {
         context_.builder.addMaterial(material_, AlphaRule::kFromTexture, NormalsRule::kMaybeHeights);
     const int material = context_.builder.veiled(opaque, opacity, SceneBuilder::Faces::kOne);
     const bool fades = context_.builder.material(material).alpha_mode != AlphaMode::kOpaque;
-    return {material, coordinates_, isBare(source_), fades};
+    return {material, coordinates_, isBare(source_, context_), fades};
   }
 
  private:

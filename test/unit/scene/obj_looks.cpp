@@ -277,6 +277,19 @@ TEST_F(ObjLooks, MaterialsThatAreNotThereAreNamed) {
       << "what Blender writes where there is none";
 }
 
+TEST_F(ObjLooks, WithoutAMaterialAreNeutralAndWhiteUnderColoursOfVertices) {
+  const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto colorOf = [&](const std::string& text) {
+    return materialOf(load(write("n.obj", text), {})).base_color.value;
+  };
+  for (const std::string lines : {"", "usemtl None\n", "mtllib gone.mtl\nusemtl gone\n"})
+    EXPECT_TRUE((colorOf(lines + faces) == kNeutral.value).all()) << lines;
+  EXPECT_TRUE((colorOf("v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3\n") == 1.0f).all());
+  write("m.mtl", "newmtl DefaultMaterial\nKd 0.6 0.6 0.6\n");
+  const std::string named = "mtllib m.mtl\nusemtl DefaultMaterial\n";
+  EXPECT_NEAR(colorOf(named + faces)[0], 0.31855f, 1e-4f) << "as other programs call one of their own";
+}
+
 // By its options Assimp may lose the name of the picture.
 TEST_F(ObjLooks, TexturesAreFoundBehindTheirOptions) {
   paint("t.png", {200, 100, 50});
