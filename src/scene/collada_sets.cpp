@@ -12,11 +12,6 @@
 namespace sunlit::scene {
 namespace {
 
-/// Of an address within the file.
-std::string withoutHash(const std::string& address) {
-  return address.compare(0, 1, "#") == 0 ? address.substr(1) : address;
-}
-
 /// The sets by effect, and by what that calls its coordinates.
 using Bindings = std::map<std::pair<std::string, std::string>, std::string>;
 

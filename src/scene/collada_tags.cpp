@@ -30,6 +30,10 @@ std::pair<std::size_t, std::size_t> placeInTag(const std::string& tag, const std
   return {std::string::npos, 0};
 }
 
+std::string withoutHash(const std::string& address) {
+  return address.compare(0, 1, "#") == 0 ? address.substr(1) : address;
+}
+
 std::string valueInTag(const std::string& tag, const std::string& attribute) {
   const auto [begin, length] = placeInTag(tag, attribute);
   return begin == std::string::npos ? "" : tag.substr(begin, length);

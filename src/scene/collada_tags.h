@@ -17,6 +17,9 @@ void forEachTag(
 /// none.
 std::pair<std::size_t, std::size_t> placeInTag(const std::string& tag, const std::string& attribute);
 
+/// Of an address within the file.
+std::string withoutHash(const std::string& address);
+
 /// Empty where there is none.
 std::string valueInTag(const std::string& tag, const std::string& attribute);
 

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -19,6 +20,7 @@
 #include "scene/assimp_nodes.h"
 #include "scene/back_to_back.h"
 #include "scene/collada_check.h"
+#include "scene/collada_effects.h"
 #include "scene/collada_lamps.h"
 #include "scene/collada_sets.h"
 #include "scene/collada_text.h"
@@ -237,19 +239,23 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
   return looks;
 }
 
-/// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended.
-void readCollada(const std::string& file, Assimp::Importer& importer, SceneBuilder& builder) {
+/// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended; how its pictures of
+/// transparency are meant.
+std::map<std::string, OpacityPicture> readCollada(const std::string& file, Assimp::Importer& importer,
+                                                  SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
   std::string text = withCountedLines(
       withoutAnimations({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}));
   requireReadableCollada(text, file);
   text = withKnownSets(text);
-  if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return;
+  std::map<std::string, OpacityPicture> transparency = transparencyOf(text);
+  if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return transparency;
   const ColladaText readable = readableCollada(text);
   const aiScene* const scene =
       importer.ReadFileFromMemory(readable.text.data(), readable.text.size(), 0, "dae");
   if (scene != nullptr && readable.holes > 0)
     builder.warn("meshes have polygons with holes, which are filled", file);
+  return transparency;
 }
 
 /// What of the parts is lost.
@@ -316,6 +322,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   Assimp::Importer importer;
   std::optional<GltfMaterials> gltf_materials;
   ObjLibraries libraries;
+  std::map<std::string, OpacityPicture> transparency;
   if (gltf) {
     gltf_materials.emplace(file, builder);
     importer.SetIOHandler(gltf_materials->input().release());
@@ -325,7 +332,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   }
   setUp(importer, up_axis);
   if (collada)
-    readCollada(file, importer, builder);
+    transparency = readCollada(file, importer, builder);
   else
     importer.ReadFile(file, 0);
   const aiScene* const scene = prepared(importer, gltf);
@@ -339,7 +346,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
       *scene,
       MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
                       gltf ? gltf_materials->order(namesOfMaterials(*scene)) : std::vector<std::size_t>(),
-                      std::move(libraries.files), std::move(libraries.materials)});
+                      std::move(libraries.files), std::move(libraries.materials), std::move(transparency)});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
   const bool y_up = (gltf || collada) && up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();

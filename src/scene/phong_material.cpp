@@ -113,7 +113,7 @@ class PhongReader {
       material_.base_color = hasColors(scene_) ? LinearRgb(1.0f, 1.0f, 1.0f) : kNeutral;
     material_.base_color.value = material_.base_color.value.max(0.0f).min(1.0f);
     readMaps();
-    const float opacity = opacityOf(source_);
+    const float opacity = transparency() != nullptr ? 1.0f : opacityOf(source_);
     if (extension_ == ".obj") {
       readRoughMetal();
       nameRestOfObj(opacity);
@@ -166,15 +166,27 @@ class PhongReader {
     return {texture, index};
   }
 
-  /// The file of a picture of opacity, if that is another than the one of colour.
-  std::optional<std::string> opacityFile(aiTextureType color_type) {
+  /// How its picture of transparency is meant, where that is no opacity; null elsewhere.
+  const OpacityPicture* transparency() const {
+    const auto found = context_.transparency.find(material_.name);
+    return found == context_.transparency.end() ? nullptr : &found->second;
+  }
+
+  /// A picture of opacity, if that is another than the one of colour.
+  std::optional<OpacityPicture> opacityPicture(aiTextureType color_type) {
     const std::string opacity = pictureOf(source_, aiTextureType_OPACITY),
                       color = pictureOf(source_, color_type);
+    if (!opacity.empty() && opacity == color && transparency() != nullptr)
+      warnOf("a picture of colour that is one of transparency, too: its alpha is an opacity");
     if (opacity.empty() || opacity == color || scene_.GetEmbeddedTexture(opacity.c_str()) != nullptr)
       return std::nullopt;
     if (!color.empty() && !(recipeOf(source_, aiTextureType_OPACITY) == recipeOf(source_, color_type)))
       warnOf("texture coordinates of its picture of opacity: those of the colour");
-    return textureFile(opacity, context_);
+    OpacityPicture picture = transparency() != nullptr ? *transparency() : OpacityPicture();
+    const std::optional<std::string> file = textureFile(opacity, context_);
+    if (!file) return std::nullopt;
+    picture.file = *file;
+    return picture;
   }
 
   /// What stands beside a picture: of OBJ the colour multiplies it, as MTL, OGRE (Gazebo, RViz) and three.js
@@ -190,7 +202,7 @@ class PhongReader {
     const std::string color = pictureOf(source_, type);
     bool colored = false;
     coordinates_ = {recipeOf(source_, color.empty() ? aiTextureType_OPACITY : type)};
-    if (const std::optional<std::string> opacity = opacityFile(type)) {
+    if (const std::optional<OpacityPicture> opacity = opacityPicture(type)) {
       const std::optional<std::string> file = color.empty() ? std::nullopt : textureFile(color, context_);
       colored = file.has_value();
       material_.base_texture =

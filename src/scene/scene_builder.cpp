@@ -47,13 +47,31 @@ bool isFar(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   });
 }
 
+/// `picture` with the opacity that `by` means.
+image::Rgba8Image coveredAs(const OpacityPicture& means, const image::Rgba8Image& picture,
+                            image::Rgba8Image by) {
+  for (std::size_t i = 3; means.of_colors && i < by.data.size(); i += 4) by.data[i] = 255;
+  image::Rgba8Image covered = image::coveredBy(picture, by);
+  const float share = std::fmin(std::fmax(means.share, 0.0f), 1.0f);
+  for (std::size_t i = 3; i < covered.data.size(); i += 4) {
+    const auto part = static_cast<std::uint8_t>(std::lround(share * static_cast<float>(covered.data[i])));
+    covered.data[i] = means.is_transparency ? static_cast<std::uint8_t>(255 - part) : part;
+  }
+  return covered;
+}
+
 }  // namespace
 
 int SceneBuilder::textureFromFile(const std::string& file, const Wraps& wraps,
-                                  const std::string& opacity_file) {
-  const std::string color = canonical(file), opacity = canonical(opacity_file);
-  return addTexture(opacity.empty() ? color : color + " by " + opacity,
-                    TextureSource{color, {}, false, wraps, opacity});
+                                  const OpacityPicture& opacity) {
+  TextureSource source{canonical(file), {}, false, wraps, opacity};
+  source.opacity.file = canonical(opacity.file);
+  std::string key = source.name;
+  if (!opacity.file.empty()) key += " by " + source.opacity.file;
+  if (opacity.is_transparency) key += " which is transparency";
+  if (opacity.of_colors) key += " of its colours";
+  if (opacity.share < 1.0f) key += " times " + std::to_string(opacity.share);
+  return addTexture(key, std::move(source));
 }
 
 int SceneBuilder::textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes,
@@ -198,7 +216,7 @@ void SceneBuilder::warn(const std::string& what, const std::string& where) {
 
 SceneBuilder::Decoded SceneBuilder::decoded(const TextureSource& source) {
   const auto read = [](const std::string& file) { return image::readRgbaWithin(kLongestTextureSide, file); };
-  const std::string& name = source.name.empty() ? source.opacity : source.name;
+  const std::string& name = source.name.empty() ? source.opacity.file : source.name;
   image::FittedImage fitted =
       source.embedded
           ? image::decodeRgbaWithin(kLongestTextureSide, source.bytes.data(), source.bytes.size(), name)
@@ -208,10 +226,10 @@ SceneBuilder::Decoded SceneBuilder::decoded(const TextureSource& source) {
   if (picture.width != fitted.width || picture.height != fitted.height)
     decoded.size_in_file = std::to_string(fitted.width) + " × " + std::to_string(fitted.height) + " px";
   if (source.name.empty()) {
-    picture = image::coveredBy(white(picture), picture);
-  } else if (!source.opacity.empty()) {
+    picture = coveredAs(source.opacity, white(picture), picture);
+  } else if (!source.opacity.file.empty()) {
     try {
-      picture = image::coveredBy(picture, read(source.opacity).picture);
+      picture = coveredAs(source.opacity, picture, read(source.opacity.file).picture);
     } catch (const std::runtime_error& error) {
       decoded.lost_opacity = error.what();
     }

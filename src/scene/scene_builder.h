@@ -55,13 +55,21 @@ struct Wraps {
   bool squares = false;
 };
 
+/// A picture of how opaque another is.
+struct OpacityPicture {
+  std::string file = {};         ///< empty: there is none
+  bool is_transparency = false;  ///< it says how much is lacking
+  bool of_colors = false;        ///< its alpha does not count
+  float share = 1.0f;            ///< 0 … 1, of what it says
+};
+
 class SceneBuilder {
  public:
   explicit SceneBuilder(const std::string& name) { scene_.name = name; }
 
   /// Index of the texture in `file`, by the opacity of another picture if there is one (image::coveredBy()),
   /// then white if there is no `file`; the same for the same files and wraps. It is decoded in finish().
-  int textureFromFile(const std::string& file, const Wraps& wraps = {}, const std::string& opacity_file = "");
+  int textureFromFile(const std::string& file, const Wraps& wraps = {}, const OpacityPicture& opacity = {});
   /// Index of a texture inside another file, known as `name`; the same for the same name and wraps.
   int textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes, const Wraps& wraps = {});
 
@@ -106,7 +114,7 @@ class SceneBuilder {
     std::vector<std::uint8_t> bytes;  ///< of an embedded picture
     bool embedded = false;
     Wraps wraps = {};
-    std::string opacity = {};  ///< path of the picture whose opacity it has; empty: its own
+    OpacityPicture opacity = {};  ///< without a file: its own
   };
   /// A texture as decoded, and the size that its file has if that is another.
   struct Decoded {

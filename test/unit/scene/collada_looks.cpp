@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 #include "scene/color.h"
 #include "unit/scene/collada_triangle.h"
@@ -46,6 +47,46 @@ TEST_F(ColladaLooks, WithoutAMaterialAreNeutralAndWhiteUnderColoursOfVertices) {
                          colladaInput("u", 0) + colladaInput("w", 1), "");
   replaceIn(text, "name='m'", "name='DefaultMaterial'");
   EXPECT_NEAR(materialOf(loaded(text)).base_color.value[0], 0.31855f, 1e-4f);
+}
+
+// Section 7, "Determining Transparency (Opacity)": ZERO is where a picture is opaque.
+TEST_F(ColladaLooks, PicturesOfTransparencyAreNoOpacity) {
+  image::Rgba8Image picture(2, 1);
+  picture.data = {255, 255, 255, 255, 0, 0, 0, 0};
+  write("paint.png", image::encodePng(picture));
+  const auto alphasOf = [&](const std::string& opaque, const std::string& share) {
+    const std::string effect = "<diffuse><color>1 1 1 1</color></diffuse><transparent opaque='" + opaque +
+                               "'><texture texture='s' texcoord='A'/></transparent><transparency><float>" +
+                               share + "</float></transparency>";
+    const Scene scene = loaded(colladaTriangle(effect, colladaInput("u", 0) + colladaInput("w", 1), ""));
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    const Texels& rgba = scene.textures.at(0).rgba;
+    return std::pair<int, int>(rgba[3], rgba[7]);
+  };
+  using Alphas = std::pair<int, int>;
+  EXPECT_EQ(alphasOf("A_ONE", "1"), Alphas(255, 0));
+  EXPECT_EQ(alphasOf("RGB_ONE", "1"), Alphas(255, 0));
+  EXPECT_EQ(alphasOf("A_ZERO", "1"), Alphas(0, 255));
+  EXPECT_EQ(alphasOf("RGB_ZERO", "1"), Alphas(0, 255));
+  EXPECT_EQ(alphasOf("A_ZERO", "0.4"), Alphas(153, 255));
+  EXPECT_EQ(alphasOf("RGB_ZERO", "0.4"), Alphas(153, 255));
+  // Colours count, whatever alpha says.
+  picture.data = {255, 255, 255, 0, 0, 0, 0, 255};
+  write("paint.png", image::encodePng(picture));
+  EXPECT_EQ(alphasOf("RGB_ZERO", "1"), Alphas(0, 255));
+  EXPECT_EQ(alphasOf("A_ZERO", "1"), Alphas(255, 0));
+}
+
+TEST_F(ColladaLooks, OneAndTheSamePictureOfColourAndTransparencyIsNamed) {
+  writeTexture("paint.png", 2);
+  const Scene scene = loaded(
+      colladaTriangle(colladaTexture("diffuse", "A") +
+                          "<transparent opaque='RGB_ZERO'><texture texture='s' texcoord='A'/></transparent>",
+                      colladaInput("u", 0) + colladaInput("w", 1), ""));
+  EXPECT_EQ(scene.textures.at(0).rgba[3], 0);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("a picture of colour that is one of transparency, too"), std::string::npos)
+      << scene.warnings[0];
 }
 
 }  // namespace

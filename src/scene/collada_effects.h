@@ -1,0 +1,15 @@
+/// What effects of COLLADA say that Assimp does not hand on.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "scene/scene_builder.h"
+
+namespace sunlit::scene {
+
+/// How pictures in <transparent> are meant, without their files, by names of materials; not where the alpha
+/// of a picture is an opacity (A_ONE), as Assimp takes it for.
+std::map<std::string, OpacityPicture> transparencyOf(const std::string& text);
+
+}  // namespace sunlit::scene
