@@ -90,7 +90,7 @@ std::optional<Mesh> terrainOf(const SdfHeightmap& source, const TerrainUse& use,
     TerrainGrid grid;
     grid.width = values.width;
     grid.depth = values.height;
-    grid.heights = terrainHeights(values, std::abs(source.Size().Z()));
+    grid.heights = terrainHeights(values, source.Size().Z());
     grid.size = {source.Size().X(), source.Size().Y()};
     if (grid.width < 2 || grid.depth < 2 || !(grid.size.minCoeff() > 0.0))
       throw std::runtime_error(place + ": its height map has no area");

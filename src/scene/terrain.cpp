@@ -61,9 +61,10 @@ std::vector<float> terrainHeights(const image::Picture<float, 1>& values, double
   const bool shares = *low >= 0.0f && *high <= 1.0f;
   const float base = shares ? 0.0f : *low;
   const float range = shares ? 1.0f : *high - *low;
+  const float top = shares && height < 0.0 ? 1.0f : 0.0f;
   std::vector<float> heights;
   for (const float value : values.data)
-    heights.push_back(range > 0.0f ? static_cast<float>(height) * ((value - base) / range) : 0.0f);
+    heights.push_back(top + (range > 0.0f ? static_cast<float>(height) * ((value - base) / range) : 0.0f));
   return heights;
 }
 

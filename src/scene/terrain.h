@@ -16,7 +16,8 @@ constexpr int kMostTerrainVertices = 1025;
 
 /// Heights of a terrain, m, top row in the north, from `values` such as image::readGreyWithin() gives: shares
 /// of `height` where all are from 0 to 1; else elevations, of which the lowest becomes 0 and the highest
-/// `height`.
+/// `height`. One below 0 turns them over as Gazebo does (ImageHeightmap and Dem::FillHeightMap()): shares lie
+/// that far below 1 m, whatever it is.
 std::vector<float> terrainHeights(const image::Picture<float, 1>& values, double height);
 
 /// The ground on a grid of `width` × `depth` vertices over size.x × size.y m around the origin, x to the

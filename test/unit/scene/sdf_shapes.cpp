@@ -179,6 +179,19 @@ TEST_F(SdfShape, AHeightMapIsGround) {
   EXPECT_NEAR(nearestOnVertical(scene, {0, 3, 5})->z, 5.0, 0.01 * 8.0);
 }
 
+// As Gazebo does, whose 1 is a metre, however high the land is.
+TEST_F(SdfShape, AHeightMapOfANegativeHeightIsTurnedOver) {
+  writePicture("hills.png", 5, -1, 0);
+  const Scene scene =
+      loaded(visual("<heightmap><uri>hills.png</uri><size>40 20 -8</size><pos>0 0 3</pos></heightmap>"));
+  EXPECT_NEAR(boundsOf(scene).max().z(), 3.0f + 1.0f, kTolerance);
+  EXPECT_NEAR(boundsOf(scene).min().z(), 3.0f + 1.0f - 8.0f, kTolerance);
+  const auto rising = loaded(visual("<heightmap><uri>hills.png</uri><size>40 20 8</size></heightmap>"));
+  ASSERT_EQ(scene.meshes.at(0).positions.size(), rising.meshes.at(0).positions.size());
+  for (std::size_t i = 0; i < rising.meshes[0].positions.size(); ++i)
+    EXPECT_NEAR(scene.meshes[0].positions[i].z(), 4.0f - rising.meshes[0].positions[i].z(), kTolerance) << i;
+}
+
 TEST_F(SdfShape, AHeightMapWithoutASizeIsOfAMetreAndNamed) {
   writePicture("hills.png", 5, -1, 0);
   const auto namedIn = [&](const std::string& size) {
