@@ -2,13 +2,30 @@
 
 #include <assimp/material.h>
 
+#include "scene/mesh_file.h"
+#include "scene/obj_lines.h"
+
 namespace sunlit::scene {
 
-std::optional<std::string> textureFile(const std::string& name, const MeshFileContext& context) {
+namespace {
+
+Found foundAs(const std::string& name, const MeshFileContext& context) {
   Found found = context.finder.findTexture(name, context.file);
   for (const std::string& library : context.libraries) {
     if (found.file) break;
     if (const Found beside = context.finder.findTexture(name, library); beside.file) found = beside;
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<std::string> textureFile(const std::string& name, const MeshFileContext& context) {
+  Found found = foundAs(name, context);
+  if (!found.file && extensionOf(context.file) == ".obj") {
+    const std::string commented = withoutComment(name);  // unless that is a part of the name
+    const std::size_t end = commented.find_last_not_of(" \t");
+    if (commented != name && end != std::string::npos) found = foundAs(commented.substr(0, end + 1), context);
   }
   if (!found.file) context.builder.warn(kMissingTextures, name + " of " + context.file);
   if (found.file && found.other_case)

@@ -36,10 +36,6 @@ void requireNoCommas(const std::string& path, const std::string& text) {
   });
 }
 
-bool isBlank(char character) {
-  return character == ' ' || character == '\t';
-}
-
 /// How many words a line of a vertex has behind its first one; 0 of other lines, and of one that goes on in
 /// the next.
 std::size_t wordsOfVertex(const std::string& line) {
@@ -86,14 +82,6 @@ std::string withColorsOfAll(const std::string& text) {
     colored += (wordsOfVertex(three) == 3 ? inWhite(three) : line) + '\n';
   });
   return colored;
-}
-
-/// Up to a # that begins it or follows a blank.
-std::string withoutComment(const std::string& line) {
-  for (std::size_t at = line.find('#'); at != std::string::npos; at = line.find('#', at + 1)) {
-    if (at == 0 || isBlank(line[at - 1])) return line.substr(0, at);
-  }
-  return line;
 }
 
 /// A 0 before each point that begins a word.

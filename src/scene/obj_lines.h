@@ -20,10 +20,22 @@ void forEachObjLine(const std::string& text, const Use& use) {
   }
 }
 
+inline bool isBlank(char character) {
+  return character == ' ' || character == '\t';
+}
+
+/// Up to a # that begins it or follows a blank.
+inline std::string withoutComment(const std::string& line) {
+  for (std::size_t at = line.find('#'); at != std::string::npos; at = line.find('#', at + 1)) {
+    if (at == 0 || isBlank(line[at - 1])) return line.substr(0, at);
+  }
+  return line;
+}
+
 /// Without a blank at its end; nothing where the line's first word is another.
 inline std::string behindWord(const std::string& word, const std::string& line) {
   if (line.compare(0, word.size(), word) != 0 || line.size() == word.size()) return {};
-  if (line[word.size()] != ' ' && line[word.size()] != '\t') return {};
+  if (!isBlank(line[word.size()])) return {};
   const std::size_t begin = line.find_first_not_of(" \t", word.size());
   if (begin == std::string::npos) return {};
   return line.substr(begin, line.find_last_not_of(" \t") + 1 - begin);

@@ -304,6 +304,20 @@ TEST_F(ObjLooks, TexturesAreFoundBehindTheirOptions) {
   EXPECT_TRUE(lookOf("map_Kd t.png\n").warnings.empty());
 }
 
+TEST_F(ObjLooks, CommentsMayStandBehindTextures) {
+  paint("t.png", {200, 100, 50});
+  for (const std::string lines : {"map_Kd t.png # my picture\n", "map_Kd t.png\t#mine\n"}) {
+    const Scene scene = lookOf(lines);
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_EQ(scene.textures.at(0).rgba[0], 200);
+  }
+  paint("t.png #2.png", {10, 20, 30});
+  EXPECT_EQ(lookOf("map_Kd t.png #2.png\n").textures.at(0).rgba[0], 10) << "a file of the whole name";
+  const Scene gone = lookOf("map_Kd gone.png # my picture\n");
+  ASSERT_EQ(gone.warnings.size(), 1u);
+  EXPECT_NE(gone.warnings[0].find("gone.png"), std::string::npos) << gone.warnings[0];
+}
+
 TEST_F(ObjLooks, TexturesMayStandBesideTheirLibrary) {
   paint("mats/t.png", {200, 100, 50});
   paint("mats/textures/u.png", {10, 20, 30});
