@@ -1,11 +1,13 @@
 #include "scene/mtl_text.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <sstream>
 #include <stdexcept>
 
 #include "scene/obj_lines.h"
+#include "scene/uri_text.h"
 
 namespace sunlit::scene {
 namespace {
@@ -25,26 +27,43 @@ void requireMaterialFirst(const std::string& path, const std::string& text) {
   });
 }
 
-/// A line without -o, -s and -t, each with its one to three numbers.
-std::string withoutPlacement(const std::string& line) {
+/// As Assimp is to read it.
+struct ReadableLine {
+  std::string text;
+  bool is_placed = false;  ///< it had -o, -s or -t
+};
+
+/// Without -o, -s and -t, each with its one to three numbers, and -cc with its word.
+ReadableLine withoutOptions(const std::string& line) {
   const LineWords words = wordsOfLine(line);
-  if (words.empty()) return line;
+  if (words.empty()) return {line};
   const std::string& first = words[0];
-  if (first.compare(0, 4, "map_") != 0 && first != "norm" && first != "bump" && first != "disp") return line;
+  if (first.compare(0, 4, "map_") != 0 && first != "norm" && first != "bump" && first != "disp")
+    return {line};
+  ReadableLine readable;
   std::string rest;
-  bool is_placement = false, is_changed = false;
-  int numbers = 0;
+  int numbers = 0;  // that may yet follow
+  bool is_changed = false;
   for (std::size_t i = 1; i < words.size(); ++i) {
-    if (is_placement && numbers < 3 && isObjNumber(words[i])) {
-      ++numbers;
+    if (numbers > 0 && isObjNumber(words[i])) {
+      --numbers;
       continue;
     }
-    is_placement = words[i] == "-o" || words[i] == "-s" || words[i] == "-t";
-    numbers = 0;
-    is_changed = is_changed || is_placement;
-    if (!is_placement) rest += ' ' + words[i];
+    const bool is_placement = words[i] == "-o" || words[i] == "-s" || words[i] == "-t";
+    const bool is_correction = words[i] == "-cc" && i + 1 < words.size();
+    numbers = is_placement ? 3 : 0;
+    readable.is_placed = readable.is_placed || is_placement;
+    is_changed = is_changed || is_placement || is_correction;
+    if (is_correction) ++i;
+    if (!is_placement && !is_correction) rest += ' ' + words[i];
   }
-  return is_changed ? first + rest : line;
+  readable.text = is_changed ? first + rest : line;
+  return readable;
+}
+
+bool isColor(const LineWords& words) {
+  static const std::set<std::string> colors = {"Ka", "Kd", "Ks", "Ke", "Tf"};
+  return words.size() > 1 && colors.count(words[0]) == 1;
 }
 
 bool isHalo(const LineWords& words) {
@@ -52,16 +71,17 @@ bool isHalo(const LineWords& words) {
 }
 
 bool isColorOfNoRgb(const LineWords& words) {
-  static const std::set<std::string> colors = {"Ka", "Kd", "Ks", "Ke", "Tf"};
-  return words.size() > 1 && colors.count(words[0]) == 1 && (words[1] == "xyz" || words[1] == "spectral");
+  return isColor(words) && (words[1] == "xyz" || words[1] == "spectral");
 }
 
 std::string readableLine(const std::string& line) {
-  const LineWords words = wordsOfLine(line);
+  const LineWords words = wordsOfLine(withoutComment(line));
   if (words.empty()) return line;
   if (words[0] == "aniso" || words[0] == "anisor" || words[0] == "decal" || isColorOfNoRgb(words)) return {};
   if (isHalo(words)) return words.size() > 2 ? "d " + words[2] : std::string();
-  return withoutPlacement(line);
+  // A lone number is that of all three colours.
+  if (isColor(words) && words.size() == 2) return words[0] + ' ' + words[1] + ' ' + words[1] + ' ' + words[1];
+  return withoutOptions(line).text;
 }
 
 /// 0 where there is none.
@@ -83,6 +103,44 @@ std::string lossOf(const LineWords& words) {
     return "d -halo, an opacity that goes by the angle: the same from everywhere";
   if (isColorOfNoRgb(words) && first != "Ka") return first + " by " + words[1] + ": as if it were not there";
   return {};
+}
+
+/// Where the values of an option begin; behind the last word where there is none.
+std::size_t placeOf(const std::string& option, const LineWords& words) {
+  return std::min<std::size_t>(std::find(words.begin(), words.end(), option) - words.begin() + 1,
+                               words.size());
+}
+
+/// Whether a picture of that word is read by the channel.
+bool isUsualChannel(const std::string& word, const std::string& channel) {
+  if (word == "map_pr") return channel == "g" || channel == "l";
+  if (word == "map_pm") return channel == "b" || channel == "l";
+  return word == "map_d" && (channel == "m" || channel == "l");
+}
+
+/// What of a picture is lost, be it all.
+std::vector<std::string> lossesOfPicture(const LineWords& words) {
+  static const std::set<std::string> rendered = {"map_kd", "map_ke", "map_emissive", "map_d",
+                                                 "map_pr", "map_pm", "map_kn",       "norm"};
+  static const std::set<std::string> named_later = {"map_ka", "map_ks", "map_ns", "map_bump", "map_disp"};
+  static const std::string filter = "map_aat";  // no picture
+  if (words.size() < 2) return {};
+  const std::string first = lowerCase(words[0]);
+  if (rendered.count(first) == 0) {
+    const bool is_lost = first.compare(0, 4, "map_") == 0 && named_later.count(first) == 0 && first != filter;
+    return is_lost ? std::vector<std::string>{words[0] + ", a picture: without it"}
+                   : std::vector<std::string>();
+  }
+  std::vector<std::string> losses;
+  const std::size_t range = placeOf("-mm", words), channel = placeOf("-imfchan", words),
+                    bump = placeOf("-bm", words);
+  if (range < words.size() && (numberIn(words, range) != 0.0 || numberIn(words, range + 1) != 1.0))
+    losses.push_back(words[0] + " -mm, a base and a gain of its picture: without them");
+  if (channel < words.size() && !isUsualChannel(first, words[channel]))
+    losses.push_back(words[0] + " -imfchan, one channel of its picture: as without it");
+  if (bump < words.size() && (first == "norm" || first == "map_kn") && numberIn(words, bump) != 1.0)
+    losses.push_back(words[0] + " -bm, how high its bumps are: as its picture says");
+  return losses;
 }
 
 /// Materials that have a picture of colour and no colour get a white one, which multiplies it; Assimp's is
@@ -125,9 +183,12 @@ MtlContent contentOfMtl(const std::string& text, const std::string& path) {
       current = material;
       content.materials.insert(material);
     }
-    if (const std::string loss = lossOf(wordsOfLine(line)); !loss.empty())
+    const LineWords words = wordsOfLine(line);
+    std::vector<std::string> losses = lossesOfPicture(words);
+    if (const std::string loss = lossOf(words); !loss.empty()) losses.push_back(loss);
+    for (const std::string& loss : losses)
       content.not_rendered.push_back(current + " of " + path + ": " + loss);
-    content.is_placed = content.is_placed || withoutPlacement(line) != line;
+    content.is_placed = content.is_placed || withoutOptions(line).is_placed;
   });
   return content;
 }

@@ -8,8 +8,9 @@
 namespace sunlit::scene {
 
 /// The library at `path`, whose content is `text`, such that Assimp 5.2 reads it: textures without where they
-/// are shifted and how often they repeat (-o, -s, -t), of which it may take their names for a part; with a
-/// white Kd beside pictures of colour that have none; without lines at which it would give up the whole file:
+/// are shifted and how often they repeat (-o, -s, -t), and without -cc, of which it may take their names for
+/// a part; with a white Kd beside pictures of colour that have none, and lone numbers of a colour for each of
+/// its three channels; without lines at which it would give up the whole file:
 /// `aniso`, `anisor`, `decal`, `-halo` of `d`, and colours by `xyz` or `spectral`. Throws std::runtime_error
 /// naming the line where the first word is of no material: Assimp writes it to one that it does not have.
 std::string readableMtl(const std::string& text, const std::string& path);

@@ -114,8 +114,43 @@ std::string withPlainLines(const std::string& text) {
   return plain;
 }
 
+/// What `mtllib` names: one library, or several where no file has the whole name.
+std::vector<std::string> librariesIn(const std::string& names, const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  const auto isThere = [&](const std::string& name) { return std::filesystem::exists(folder / name); };
+  const std::vector<std::string> words = wordsOfLine(names);
+  if (!isThere(names) && std::any_of(words.begin(), words.end(), isThere)) return words;
+  return names.empty() ? std::vector<std::string>() : std::vector<std::string>{names};
+}
+
+/// Each library on a line of its own.
+std::string withLoneLibraries(const std::string& text, const std::string& file) {
+  std::string parted;
+  forEachObjLine(text, [&](const std::string& line, std::size_t) {
+    const std::vector<std::string> libraries = librariesIn(behindWord("mtllib", line), file);
+    if (libraries.size() < 2) parted += line + '\n';
+    for (std::size_t i = 0; libraries.size() > 1 && i < libraries.size(); ++i)
+      parted += "mtllib " + libraries[i] + '\n';
+  });
+  return parted;
+}
+
 std::string withoutMark(const std::string& text) {
   return text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? text.substr(3) : text;
+}
+
+/// Whether it is there; else the one that Assimp then looks for is added.
+bool addLibrary(const std::filesystem::path& object, const std::string& name, ObjLibraries& libraries) {
+  std::filesystem::path library = object.parent_path() / name;
+  const bool is_there = std::filesystem::exists(library);
+  if (!is_there) library = std::filesystem::path(object).replace_extension("mtl");
+  libraries.files.push_back(library.string());
+  const MtlContent content = contentOfMtl(withoutMark(contentOf(library.string())), library.string());
+  libraries.materials.insert(content.materials.begin(), content.materials.end());
+  libraries.not_rendered.insert(libraries.not_rendered.end(), content.not_rendered.begin(),
+                                content.not_rendered.end());
+  if (content.is_placed) libraries.placed.push_back(library.string());
+  return is_there;
 }
 
 }  // namespace
@@ -123,7 +158,8 @@ std::string withoutMark(const std::string& text) {
 Assimp::IOStream* ObjInput::Open(const char* path, const char* mode) {
   if (!Exists(path)) return DefaultIOSystem::Open(path, mode);
   const std::string text = withoutMark(contentOf(path));
-  if (extensionOf(path) == ".obj") return streamOf(withColorsOfAll(withPlainLines(text)));
+  if (extensionOf(path) == ".obj")
+    return streamOf(withColorsOfAll(withLoneLibraries(withPlainLines(text), path)));
   return streamOf(readableMtl(text, path));
 }
 
@@ -136,19 +172,9 @@ ObjLibraries librariesOfObj(const std::string& file) {
   requireNoCommas(file, object);
   forEachObjLine(object, [&](const std::string& line, std::size_t) {
     if (const std::string material = behindWord("usemtl", line); !material.empty()) used.insert(material);
-    const std::string name = behindWord("mtllib", line);
-    if (name.empty()) return;
-    std::filesystem::path library = path.parent_path() / name;
-    if (!std::filesystem::exists(library)) {
-      missing += (missing.empty() ? "" : ", ") + name;
-      library = std::filesystem::path(path).replace_extension("mtl");  // which Assimp then looks for
+    for (const std::string& name : librariesIn(behindWord("mtllib", line), file)) {
+      if (!addLibrary(path, name, libraries)) missing += (missing.empty() ? "" : ", ") + name;
     }
-    libraries.files.push_back(library.string());
-    const MtlContent content = contentOfMtl(withoutMark(contentOf(library.string())), library.string());
-    libraries.materials.insert(content.materials.begin(), content.materials.end());
-    libraries.not_rendered.insert(libraries.not_rendered.end(), content.not_rendered.begin(),
-                                  content.not_rendered.end());
-    if (content.is_placed) libraries.placed.push_back(library.string());
   });
   for (const std::string& material : used) {
     const bool is_none = material == "None" || material == "(null)";  // as exporters write it

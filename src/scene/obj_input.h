@@ -12,7 +12,8 @@ namespace sunlit::scene {
 /// Opens the files that an OBJ file consists of: without a byte order mark; vertices without a colour in
 /// white where others have one, since Assimp 5.2 would give them those of others; numbers such as .5 with a
 /// 0 before the point, and a second one behind those of `vt` that have one; without comments behind vertices
-/// and faces; libraries of materials as by readableMtl(), whose std::runtime_error Assimp hands on.
+/// and faces; each library of `mtllib` on a line of its own; libraries of materials as by readableMtl(),
+/// whose std::runtime_error Assimp hands on.
 class ObjInput : public Assimp::DefaultIOSystem {
  public:
   Assimp::IOStream* Open(const char* path, const char* mode = "rb") override;

@@ -54,5 +54,20 @@ TEST_F(ObjLines, CommentsMayStandBehindThem) {
   EXPECT_EQ(load(write("e.obj", quad + "l 1 2 # edge\np 1 # 2\n"), {}).triangleCount(), 2u);
 }
 
+TEST_F(ObjLines, OfLibrariesMayNameSeveral) {
+  write("a.mtl", "newmtl a\nKd 1 0 0\n");
+  write("b.mtl", "newmtl b\nKd 0 0 1\n");
+  write("c 1.mtl", "newmtl c\nKd 0 1 0\n");
+  const Scene scene = load(write("m.obj",
+                                 "mtllib a.mtl b.mtl\nmtllib c 1.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                 "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n"),
+                           {});
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+  ASSERT_EQ(scene.materials.size(), 3u);
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  for (const Material& material : scene.materials) sum += material.base_color.value;
+  EXPECT_TRUE((sum == 1.0f).all()) << sum.transpose();
+}
+
 }  // namespace
 }  // namespace sunlit::scene

@@ -236,6 +236,38 @@ TEST_F(ObjLooks, WordsThatAssimpDoesNotKnowStopNothing) {
     EXPECT_TRUE(lossesOf(nothing).empty()) << nothing;
 }
 
+TEST_F(ObjLooks, ALoneNumberOfAColourIsThatOfEachChannel) {
+  const auto colorOf = [&](const std::string& color) {
+    return Eigen::Array3f(materialOf(lookOf(color)).base_color.value);
+  };
+  for (const std::string lone : {"Kd 0.5\n", "Kd .5 # grey\n"})
+    EXPECT_LT((colorOf(lone) - 0.21404f).abs().maxCoeff(), 1e-5f) << lone;
+  EXPECT_TRUE((materialOf(lookOf("Ke 1\n")).emission.value == kDisplayWhite_cd_per_m2).all());
+}
+
+TEST_F(ObjLooks, WhatOptionsSayOfPicturesIsNamed) {
+  paint("t.png", {200, 100, 50});
+  paint("normal.png", {128, 100, 240});
+  const std::vector<std::pair<std::string, std::string>> lost = {
+      {"map_Kd -mm 0 0.5 t.png\n", "map_Kd -mm"},        {"map_Kd -mm 0.25 1 t.png\n", "map_Kd -mm"},
+      {"map_Kd -imfchan r t.png\n", "map_Kd -imfchan"},  {"map_Tr t.png\n", "map_Tr, a picture"},
+      {"map_opacity t.png\n", "map_opacity, a picture"}, {"map_Ps t.png\n", "map_Ps, a picture"},
+      {"map_RMA t.png\n", "map_RMA, a picture"},         {"map_ORM t.png\n", "map_ORM, a picture"},
+#ifndef SUNLIT_OLD_ASSIMP
+      {"norm -bm 0.3 normal.png\n", "norm -bm"},
+#endif
+  };
+  for (const auto& [lines, name] : lost) {
+    const Scene scene = lookOf(lines);
+    ASSERT_EQ(scene.warnings.size(), 1u) << lines;
+    EXPECT_NE(scene.warnings[0].find("m of " + pathOf("m.mtl") + ": " + name), std::string::npos)
+        << scene.warnings[0];
+  }
+  for (const std::string nothing : {"map_Kd -mm 0 1 t.png\n", "map_Kd -cc on t.png\n", "map_aat on\n"})
+    EXPECT_TRUE(lookOf(nothing).warnings.empty()) << lookOf(nothing).warnings[0];
+  EXPECT_EQ(lookOf("map_Kd -cc off -clamp on t.png\n").textures.size(), 1u);
+}
+
 // As SketchUp writes walls; drawn from both sides, either would flicker through the other.
 TEST_F(ObjLooks, FacesBackToBackAreOneSided) {
   write("m.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
