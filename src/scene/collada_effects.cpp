@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "scene/collada_tags.h"
 
@@ -38,6 +39,30 @@ std::map<std::string, OpacityPicture> transparencyOfEffects(const std::string& t
   return pictures;
 }
 
+/// What stands in the place of a reference: an element that may stand there, whole. By effect and name.
+using Parameters = std::map<std::pair<std::string, std::string>, std::string>;
+
+Parameters parametersOf(const std::string& text) {
+  Parameters parameters;
+  std::string effect, parameter;
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {
+    if (name == "effect") effect = valueInTag(tag, "id");
+    if (name == "newparam") parameter = valueInTag(tag, "sid");
+    if (parameter.empty()) return;
+    const std::string content = contentBehind(at + tag.size(), text);
+    std::string element;
+    if (name == "float") element = "<float>" + content + "</float>";
+    if (name == "float3") element = "<color>" + content + " 1</color>";
+    if (name == "float4") element = "<color>" + content + "</color>";
+    if (element.empty()) return;
+    // Lines stay where they are.
+    std::replace_if(
+        element.begin(), element.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    parameters.emplace(std::make_pair(effect, std::exchange(parameter, "")), element);
+  });
+  return parameters;
+}
+
 }  // namespace
 
 std::map<std::string, OpacityPicture> transparencyOf(const std::string& text) {
@@ -51,6 +76,24 @@ std::map<std::string, OpacityPicture> transparencyOf(const std::string& text) {
     if (found != of_effects.end()) of_materials.emplace(material, found->second);
   });
   return of_materials;
+}
+
+std::string withParameters(const std::string& text) {
+  const Parameters parameters = parametersOf(text);
+  std::string replaced, effect;
+  std::size_t copied = 0;
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {
+    if (name == "effect") effect = valueInTag(tag, "id");
+    const auto found = name == "param" ? parameters.find({effect, valueInTag(tag, "ref")}) : parameters.end();
+    if (found == parameters.end() || at < copied) return;
+    const std::string end = "</param>";
+    const std::size_t behind = at + tag.size();
+    const std::size_t next = tag[tag.size() - 2] == '/' ? behind : text.find(end, behind) + end.size();
+    if (next < behind) return;  // XML that is broken
+    replaced.append(text, copied, at - copied).append(found->second);
+    copied = next;
+  });
+  return replaced.append(text, copied, std::string::npos);
 }
 
 }  // namespace sunlit::scene

@@ -12,4 +12,8 @@ namespace sunlit::scene {
 /// of a picture is an opacity (A_ONE), as Assimp takes it for.
 std::map<std::string, OpacityPicture> transparencyOf(const std::string& text);
 
+/// `text` in which the values of parameters stand in the place of each <param> that refers to them: Assimp
+/// 5.2 does not follow it. Lines stay where they are.
+std::string withParameters(const std::string& text);
+
 }  // namespace sunlit::scene

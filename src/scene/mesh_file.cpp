@@ -247,7 +247,7 @@ std::map<std::string, OpacityPicture> readCollada(const std::string& file, Assim
   std::string text = withCountedLines(
       withoutAnimations({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}));
   requireReadableCollada(text, file);
-  text = withKnownSets(text);
+  text = withParameters(withKnownSets(text));
   std::map<std::string, OpacityPicture> transparency = transparencyOf(text);
   if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return transparency;
   const ColladaText readable = readableCollada(text);

@@ -93,6 +93,20 @@ bool isInvented(const aiMaterial& source, const MeshFileContext& context) {
   return isBare(source, context) && (extension == ".dae" || std::min({color.r, color.g, color.b}) >= 1.0f);
 }
 
+/// A <constant> of COLLADA.
+bool isUnlit(const aiMaterial& source) {
+  int shading = aiShadingMode_Phong;
+  source.Get(AI_MATKEY_SHADING_MODEL, shading);
+  return shading == aiShadingMode_NoShading;
+}
+
+/// That is the colour of those; some files write a diffuse one, which counts where there is no emission.
+bool isColoredByEmission(const aiMaterial& source) {
+  aiColor4D emission(0.0f, 0.0f, 0.0f, 1.0f);
+  source.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
+  return isUnlit(source) && (!emission.IsBlack() || !pictureOf(source, aiTextureType_EMISSIVE).empty());
+}
+
 bool hasColors(const aiScene& scene) {
   return std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
                      [](const aiMesh* mesh) { return mesh->HasVertexColors(0); });
@@ -102,7 +116,11 @@ bool hasColors(const aiScene& scene) {
 class PhongReader {
  public:
   PhongReader(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context)
-      : source_(source), scene_(scene), context_(context), extension_(extensionOf(context.file)) {
+      : source_(source),
+        scene_(scene),
+        context_(context),
+        extension_(extensionOf(context.file)),
+        by_emission_(extension_ == ".dae" && isColoredByEmission(source)) {
     material_.name = nameOf(source);
   }
 
@@ -118,6 +136,7 @@ class PhongReader {
       readRoughMetal();
       nameRestOfObj(opacity);
     } else if (extension_ == ".dae") {
+      if (isUnlit(source_)) warnOf("<constant>, a colour without any light: lit like any other");
       warnOfPlacement();
       nameReflection();
       nameIndex(opacity < 1.0f);
@@ -142,7 +161,10 @@ class PhongReader {
   /// Phong's; they are display values.
   void readColors() {
     aiColor4D diffuse(0.8f, 0.8f, 0.8f, 1.0f);
-    source_.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+    if (by_emission_)
+      source_.Get(AI_MATKEY_COLOR_EMISSIVE, diffuse);
+    else
+      source_.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
     material_.base_color = linearFromSrgb({diffuse.r, diffuse.g, diffuse.b});
     material_.roughness = 0.9f;
     const auto [color, shininess] = highlightOf(source_, extension_ == ".dae");
@@ -198,7 +220,9 @@ class PhongReader {
   /// Colour and opacity. A picture of colour that is missing makes the material neutral.
   void readColorMaps() {
     const bool base = !pictureOf(source_, aiTextureType_BASE_COLOR).empty();
-    const aiTextureType type = base ? aiTextureType_BASE_COLOR : aiTextureType_DIFFUSE;
+    const aiTextureType type = by_emission_ ? aiTextureType_EMISSIVE
+                               : base       ? aiTextureType_BASE_COLOR
+                                            : aiTextureType_DIFFUSE;
     const std::string color = pictureOf(source_, type);
     bool colored = false;
     coordinates_ = {recipeOf(source_, color.empty() ? aiTextureType_OPACITY : type)};
@@ -215,8 +239,7 @@ class PhongReader {
     if (!colored && !color.empty()) material_.base_color = kNeutral;
   }
 
-  /// What there is beside colour and highlight: emission is rendered, the rest named.
-  void readMaps() {
+  void readEmission() {
     aiColor4D emission(0.0f, 0.0f, 0.0f, 1.0f);
     source_.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
     material_.emission_map = addMap(aiTextureType_EMISSIVE);
@@ -226,6 +249,11 @@ class PhongReader {
     else if (!pictureOf(source_, aiTextureType_EMISSIVE).empty())
       material_.emission = LinearRgb();  // not all over
     material_.emission.value *= kDisplayWhite_cd_per_m2;
+  }
+
+  /// What there is beside colour and highlight: emission is rendered, the rest named.
+  void readMaps() {
+    if (!by_emission_) readEmission();
     material_.normal_map = addMap(aiTextureType_NORMALS);
     const auto name = [&](aiTextureType type, const char* what) {
       if (source_.GetTextureCount(type) > 0) warnOf(what);
@@ -323,6 +351,7 @@ class PhongReader {
   const aiScene& scene_;
   const MeshFileContext& context_;
   const std::string extension_;
+  const bool by_emission_;  ///< its colour is
   Material material_;
   std::vector<CoordinateRecipe> coordinates_;  ///< of MeshLook
 };

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "scene/collada_effects.h"
 #include "scene/color.h"
 #include "unit/scene/collada_triangle.h"
 #include "unit/scene/scene_files.h"
@@ -87,6 +88,51 @@ TEST_F(ColladaLooks, OneAndTheSamePictureOfColourAndTransparencyIsNamed) {
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("a picture of colour that is one of transparency, too"), std::string::npos)
       << scene.warnings[0];
+}
+
+TEST_F(ColladaLooks, ColoursMayStandInParameters) {
+  const std::string parameter = "<newparam sid='d'><float4>1 0\n0 1</float4></newparam>",
+                    before = "<technique sid='c'>";
+  for (const std::string reference : {"<param ref='d'/>", "<param ref='d'></param>"}) {
+    std::string text = colladaTriangle("<diffuse>" + reference + "</diffuse>",
+                                       colladaInput("u", 0) + colladaInput("w", 1), "");
+    replaceIn(text, before, parameter + before);
+    const Scene scene = loaded(text);
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_TRUE((materialOf(scene).base_color.value == Eigen::Array3f(1.0f, 0.0f, 0.0f)).all());
+    EXPECT_EQ(withParameters(text).find(reference), std::string::npos);
+  }
+  std::string glass = colladaTriangle(
+      "<transparent opaque='A_ONE'><color>1 1 1 1</color></transparent>"
+      "<transparency><param ref='t'/></transparency>",
+      colladaInput("u", 0) + colladaInput("w", 1), "");
+  replaceIn(glass, before, "<newparam sid='t'><float>0.75</float></newparam>" + before);
+  EXPECT_FLOAT_EQ(materialOf(loaded(glass)).alpha, 0.75f);
+  const std::string other =
+      "<effect id='a'><newparam sid='d'><float>1</float></newparam></effect>"
+      "<effect id='b'><param ref='d'/></effect>";
+  EXPECT_EQ(withParameters(other), other) << "of another effect";
+}
+
+TEST_F(ColladaLooks, OfConstantShadingHaveTheColourOfTheirEmission) {
+  writeTexture("paint.png");
+  for (const bool pictured : {false, true}) {
+    std::string text = colladaTriangle(
+        pictured ? colladaTexture("emission", "A") : "<emission><color>0 1 0 1</color></emission>",
+        colladaInput("u", 0) + colladaInput("w", 1), "");
+    for (const std::string mark : {"<lambert>", "</lambert>"})
+      replaceIn(text, mark, mark[1] == '/' ? "</constant>" : "<constant>");
+    const Scene scene = loaded(text);
+    const Material& look = materialOf(scene);
+    EXPECT_TRUE((look.emission.value == 0.0f).all());
+    EXPECT_FALSE(look.emission_map.given());
+    EXPECT_EQ(look.base_texture != Material::kNoTexture, pictured);
+    EXPECT_EQ(look.base_color.value[0], pictured ? 1.0f : 0.0f);
+    EXPECT_EQ(look.base_color.value[1], 1.0f);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("<constant>, a colour without any light"), std::string::npos)
+        << scene.warnings[0];
+  }
 }
 
 }  // namespace
