@@ -322,7 +322,6 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   Assimp::Importer importer;
   std::optional<GltfMaterials> gltf_materials;
   ObjLibraries libraries;
-  std::map<std::string, OpacityPicture> transparency;
   if (gltf) {
     gltf_materials.emplace(file, builder);
     importer.SetIOHandler(gltf_materials->input().release());
@@ -331,10 +330,9 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
     libraries = readLibraries(file, builder);
   }
   setUp(importer, up_axis);
-  if (collada)
-    transparency = readCollada(file, importer, builder);
-  else
-    importer.ReadFile(file, 0);
+  std::map<std::string, OpacityPicture> transparency;
+  if (collada) transparency = readCollada(file, importer, builder);
+  if (!collada) importer.ReadFile(file, 0);
   const aiScene* const scene = prepared(importer, gltf);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString() +

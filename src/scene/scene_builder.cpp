@@ -301,7 +301,7 @@ void SceneBuilder::settleAlpha() {
       if (whole && material.alpha >= 1.0f) material.alpha_mode = AlphaMode::kOpaque;
     } else if (alpha_rules_[i] == AlphaRule::kFromTexture && textured) {
       const auto texture = static_cast<std::size_t>(material.base_texture);
-      const std::string name = material.name + ": " + sources_[texture].name + ", whose alpha is ";
+      const std::string name = material.name + ": " + scene_.textures[texture].name + ", whose alpha is ";
       if (means[texture] == AlphaMeans::kCutOut) {
         material.alpha_mode = AlphaMode::kMask;
       } else if (means[texture] == AlphaMeans::kVeil) {

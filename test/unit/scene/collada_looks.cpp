@@ -78,6 +78,19 @@ TEST_F(ColladaLooks, PicturesOfTransparencyAreNoOpacity) {
   EXPECT_EQ(alphasOf("A_ZERO", "1"), Alphas(255, 0));
 }
 
+TEST_F(ColladaLooks, PicturesThatLeaveNothingAreCalledByTheirFile) {
+  image::Rgba8Image picture(1, 1);
+  picture.data = {255, 255, 255, 255};
+  write("paint.png", image::encodePng(picture));
+  const Scene scene = loaded(
+      colladaTriangle("<transparent opaque='RGB_ZERO'><texture texture='s' texcoord='A'/></transparent>",
+                      colladaInput("u", 0) + colladaInput("w", 1), ""));
+  EXPECT_EQ(materialOf(scene).alpha_mode, AlphaMode::kOpaque);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("m: " + pathOf("paint.png") + ", whose alpha is 0"), std::string::npos)
+      << scene.warnings[0];
+}
+
 TEST_F(ColladaLooks, OneAndTheSamePictureOfColourAndTransparencyIsNamed) {
   writeTexture("paint.png", 2);
   const Scene scene = loaded(
