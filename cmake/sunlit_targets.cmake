@@ -6,6 +6,14 @@ target_compile_options(sunlit_flags INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   # One rounding per operation, so that results do not depend on how a compiler fuses them.
   -ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  # Nor on how Eigen does, which asks for the instruction by name where this says that there is one; nor on the width of its
+  # vectors. What is parsed once would have to come before the header.
+  target_compile_options(sunlit_flags INTERFACE
+    -U__ARM_FEATURE_FMA "SHELL:-include ${PROJECT_SOURCE_DIR}/src/quantity/eigen_packets.h")
+  target_link_libraries(sunlit_flags INTERFACE Eigen3::Eigen)
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
+endif()
 if(SUNLIT_WERROR)
   target_compile_options(sunlit_flags INTERFACE -Werror)
 endif()

@@ -23,7 +23,7 @@ struct Spherical {
 
 Spherical sphericalOf(const Eigen::Vector3d& vector) {
   return {Angle::degrees(inTurn(std::atan2(vector.y(), vector.x()) / kRadPerDeg)),
-          Angle::radians(std::atan2(vector.z(), std::hypot(vector.x(), vector.y())))};
+          Angle::radians(std::atan2(vector.z(), vector.head<2>().norm()))};
 }
 
 Angle between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -68,7 +68,7 @@ MoonPosition moonPosition(const LunarCoordinates& moon, const SolarCoordinates& 
 
   MoonPosition position;
   position.azimuth = Azimuth(Angle::radians(std::atan2(in_map.x(), in_map.y())));
-  position.elevation_geometric = Angle::radians(std::atan2(in_map.z(), std::hypot(in_map.x(), in_map.y())));
+  position.elevation_geometric = Angle::radians(std::atan2(in_map.z(), in_map.head<2>().norm()));
   position.elevation = position.elevation_geometric + refraction(position.elevation_geometric, air);
   position.right_ascension = seen.right_ascension;
   position.declination = seen.declination;

@@ -43,7 +43,8 @@ SunPosition sunPosition(const SolarCoordinates& sun, const Observer& observer, c
 
   SunPosition position;
   position.azimuth = Azimuth(Angle::radians(std::atan2(east, north)));
-  position.elevation_geometric = Angle::radians(std::atan2(up, std::hypot(east, north)));
+  // Not by hypot(), whose last bit C libraries round otherwise for another processor; a root's they do not.
+  position.elevation_geometric = Angle::radians(std::atan2(up, std::sqrt(east * east + north * north)));
   position.elevation = position.elevation_geometric + refraction(position.elevation_geometric, air);
   position.right_ascension = Angle::radians(inTurn(sun.right_ascension.rad() + alpha_shift));
   position.declination = Angle::radians(declination);
