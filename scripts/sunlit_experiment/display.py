@@ -19,7 +19,7 @@ WHOLE_SCREEN = "\x1b[r"
 
 def restore(stream):
     """Gives a terminal all its rows back: for whoever remains when a Foot was killed."""
-    if stream.isatty() and _knows_rows():
+    if stream and stream.isatty() and _knows_rows():
         _write(stream.fileno(), SAVE + WHOLE_SCREEN + RESTORE)
 
 
@@ -102,14 +102,26 @@ class Lines:
         pass
 
 
+class Nowhere:
+    def show(self, status, now):
+        pass
+
+    def close(self):
+        pass
+
+
 class Display:
-    """What a user sees of a run, on `stream`."""
+    """What a user sees of a run, on `stream`; None, as Python has a standard output that was closed: nothing."""
 
     def __init__(self, stream):
+        self.place = self._place_on(stream) if stream else Nowhere()
+        self.pace = progress.Pace()
+
+    @staticmethod
+    def _place_on(stream):
         size = _size(stream.fileno()) if stream.isatty() and _knows_rows() else None
         in_place = size is not None and size.lines >= LOWEST
-        self.place = (Foot if in_place else Lines)(stream.fileno())
-        self.pace = progress.Pace()
+        return (Foot if in_place else Lines)(stream.fileno())
 
     def show(self, status):
         now = time.monotonic()

@@ -101,19 +101,30 @@ class ExperimentArguments(unittest.TestCase):
                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
                 self.assertIn("argument nosie is 'true'", done.stderr)
 
-    def test_what_is_nowhere_is_refused_by_name(self):
+    def refused_plan(self, plan, **typed):
+        """What is said where there can be no plan."""
         launch_file = os.path.join(SOURCE, "launch", "experiment.launch")
         texts = {arg.get("name"): arg.get("default") for arg in ElementTree.parse(launch_file).iter("arg") if "default" in arg.attrib}
+        done = subprocess.run([os.path.join(SOURCE, "scripts", "experiment_parameters"), "plan", plan, launch_file,
+                               located("count_poses"), *("%s:=%s" % item for item in dict(texts, **typed).items())],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
+        return done.stderr
+
+    def test_what_is_nowhere_is_refused_by_name(self):
         for name, text, words in (("path", "/nowhere.csv", "/nowhere.csv"), ("robot", "cat", "argument robot is 'cat'"),
                                   ("world", "/nowhere.world", "there is no world /nowhere.world")):
             with tempfile.TemporaryDirectory() as folder:
-                typed = ["%s:=%s" % item for item in dict(texts, output=folder, **{name: text}).items()]
-                done = subprocess.run([os.path.join(SOURCE, "scripts", "experiment_parameters"), "plan", os.path.join(folder, "plan"),
-                                       launch_file, located("count_poses"), *typed], stdout=subprocess.PIPE,
-                                      stderr=subprocess.PIPE, universal_newlines=True)
-                self.assertEqual((done.returncode, done.stdout, os.listdir(folder)), (1, "", []), done.stderr)
-                self.assertIn("sunlit: ", done.stderr)
-                self.assertIn(words, done.stderr)
+                said = self.refused_plan(os.path.join(folder, "plan"), **{"output": folder, name: text})
+                self.assertEqual(os.listdir(folder), [])
+                self.assertIn("sunlit: ", said)
+                self.assertIn(words, said)
+
+    def test_a_log_folder_that_cannot_be_written_to_is_told_in_a_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            open(os.path.join(folder, "log"), "w").close()
+            said = self.refused_plan(os.path.join(folder, "log", "plan"), output=folder)
+            self.assertRegex(said.splitlines()[-1], "^sunlit: .*/log/plan: .*; ROS_LOG_DIR must name a folder that can be written to$")
 
     def test_a_tilde_is_the_home_folder(self):
         """bash leaves it as it is in NAME:=~/file."""

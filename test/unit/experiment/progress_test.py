@@ -255,6 +255,13 @@ class OnATerminal(unittest.TestCase):
             display.restore(self.stream)
         self.assertEqual(self.written(), "experiment: rendering: 1 of 991 poses (0 %)\r\n")
 
+    def test_a_run_goes_on_whose_standard_output_was_closed(self):
+        nowhere = None  # as Python has it
+        shown = display.Display(nowhere)
+        shown.show(rendering(1))
+        shown.close()
+        display.restore(nowhere)
+        display.say("done", nowhere)
 
     def test_a_terminal_that_hangs_up_does_not_end_the_run(self):
         shown = display.Display(self.stream)

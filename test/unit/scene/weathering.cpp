@@ -139,6 +139,7 @@ TEST(Shelter, IsUnderRoofs) {
   const Scene scene = roofedGround();
   const Shelter shelter(Shape(scene), scene.materials);
   EXPECT_FALSE(shelter.open({0.0, 0.0, 1.0}));
+  EXPECT_FALSE(shelter.open({0.0, 0.0, 2.95}));  // just below the sheet, which has no thickness
   EXPECT_TRUE(shelter.open({0.0, 0.0, 3.2}));
   EXPECT_TRUE(shelter.open({20.0, 20.0, 0.5}));
   EXPECT_TRUE(shelter.open({5.4, 0.0, 0.5}));    // beside it
