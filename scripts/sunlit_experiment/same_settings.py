@@ -20,7 +20,7 @@ def as_before(now, before, has_inputs):
         if name == "camera":
             return _is_same_camera(now[name], before[name], has_inputs)
         if name in FILES:
-            return has_inputs or _is_same_file(now[name], before[name], has_inputs)
+            return has_inputs or _is_same_file(now[name], before[name])
         return _value(now[name]) == _value(before[name])
 
     return {name: before[name] if name in before and means_the_same(name) else text for name, text in now.items()}
@@ -45,9 +45,9 @@ def _is_same_camera(now, before, has_inputs):
     """FILE, 1.0 m; without a file all of it are numbers, whose spelling the evaluator sees through."""
     (file, _, height), (file_before, _, height_before) = (text.rpartition(", ") for text in (now, before))
     same_height = _value(height.rstrip(" m")) == _value(height_before.rstrip(" m"))
-    return same_height and _is_same_file(file, file_before, has_inputs)
+    same_name = has_inputs and os.path.basename(file) == os.path.basename(file_before)
+    return same_height and (same_name or _is_same_file(file, file_before))
 
 
-def _is_same_file(now, before, has_inputs):
-    now, before = (read.file(text).rstrip("/") for text in (now, before))
-    return now == before or (has_inputs and os.path.basename(now) == os.path.basename(before))
+def _is_same_file(now, before):
+    return read.file(now).rstrip("/") == read.file(before).rstrip("/")

@@ -80,6 +80,7 @@ std::map<std::string, OpacityPicture> transparencyOf(const std::string& text) {
 
 std::string withParameters(const std::string& text) {
   const Parameters parameters = parametersOf(text);
+  if (parameters.empty()) return text;
   std::string replaced, effect;
   std::size_t copied = 0;
   forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {

@@ -116,11 +116,12 @@ std::string withPlainLines(const std::string& text) {
 
 /// What `mtllib` names: one library, or several where no file has the whole name.
 std::vector<std::string> librariesIn(const std::string& names, const std::string& file) {
+  if (names.empty()) return {};  // as of nearly all lines, of which each would be looked for
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   const auto isThere = [&](const std::string& name) { return std::filesystem::exists(folder / name); };
   const std::vector<std::string> words = wordsOfLine(names);
   if (!isThere(names) && std::any_of(words.begin(), words.end(), isThere)) return words;
-  return names.empty() ? std::vector<std::string>() : std::vector<std::string>{names};
+  return {names};
 }
 
 /// Each library on a line of its own.

@@ -135,13 +135,13 @@ studio::Reports RenderNode::reports() {
     activity_.say("baking", "", {share, seconds_left});
     diagnostics_.update();
   };
-  reports.loaded = [this](const std::string& print) { onLoaded(print); };
+  if (files_) reports.loaded = [this](const std::string& print) { onLoaded(print); };
   return reports;
 }
 
 void RenderNode::onLoaded(const std::string& world_print) {
   world_print_ = world_print;
-  if (!files_ || !files_->goesOn() || !path_ || !path_->ready()) return;
+  if (!files_->goesOn() || !path_ || !path_->ready()) return;
   keepInputs();
   const PacingOptions& pacing = options_.pacing;
   if (pacing.exit_when_done && pacing.resume_at >= path_->end() - path_->first()) throw NothingLeft();

@@ -25,6 +25,12 @@ class ObjLooks : public SceneFiles {
                       "2/2 3/3\n"),
                 {});
   }
+  /// The one warning of a material of these lines.
+  void expectOneWarning(const std::string& lines, const std::string& words) const {
+    const Scene scene = lookOf(lines);
+    ASSERT_EQ(scene.warnings.size(), 1u) << lines;
+    EXPECT_NE(scene.warnings[0].find(words), std::string::npos) << scene.warnings[0];
+  }
   static const Material& materialOf(const Scene& scene) {
     return scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).material));
   }
@@ -124,11 +130,7 @@ TEST_F(ObjLooks, WhatMeansSomethingAndIsNotRenderedIsNamed) {
       {"Pc 0.5\n", "a clear coat"},
 #endif
   };
-  for (const auto& [lines, name] : lost) {
-    const Scene scene = lookOf(lines);
-    ASSERT_EQ(scene.warnings.size(), 1u) << lines;
-    EXPECT_NE(scene.warnings[0].find(name), std::string::npos) << scene.warnings[0];
-  }
+  for (const auto& [lines, name] : lost) expectOneWarning(lines, name);
   // As exporters write of any material.
   for (const std::string lines :
        {"illum 2\nNi 1.45\nTf 1 1 1\n", "Ni 1.4\n", "Ni 1.6\n", "illum 1\nNi 1\nTf 0 0 0\nPc 0\nPs 0 0 0\n",
@@ -257,12 +259,7 @@ TEST_F(ObjLooks, WhatOptionsSayOfPicturesIsNamed) {
       {"norm -bm 0.3 normal.png\n", "norm -bm"},
 #endif
   };
-  for (const auto& [lines, name] : lost) {
-    const Scene scene = lookOf(lines);
-    ASSERT_EQ(scene.warnings.size(), 1u) << lines;
-    EXPECT_NE(scene.warnings[0].find("m of " + pathOf("m.mtl") + ": " + name), std::string::npos)
-        << scene.warnings[0];
-  }
+  for (const auto& [lines, name] : lost) expectOneWarning(lines, "m of " + pathOf("m.mtl") + ": " + name);
   for (const std::string nothing : {"map_Kd -mm 0 1 t.png\n", "map_Kd -cc on t.png\n", "map_aat on\n"})
     EXPECT_TRUE(lookOf(nothing).warnings.empty()) << lookOf(nothing).warnings[0];
   EXPECT_EQ(lookOf("map_Kd -cc off -clamp on t.png\n").textures.size(), 1u);
