@@ -256,6 +256,25 @@ TEST_F(LampGlow, EndsAtWhatIsInTheWayAndCastsShadowsIntoTheFog) {
               1.0, 0.04);
 }
 
+TEST_F(LampGlow, OfLampsCloseBehindWhatHidesThemEndsAtItsEdgeFromWhereverOneLooks) {
+  // A board that reaches 1.5 m above the eye, its lamp 1 m behind it: somewhere in the one slice of the fog
+  // that both lie in.
+  scene::Scene scene = emptiness();
+  addBlock(&scene, 0, {15.0f, -6.0f, -6.0f}, {0.2f, 12.0f, 7.5f});
+  render::Renderer renderer(shared(scene), cameraOptions());
+  scene::Lamp lamp = lampAt({16.0f, 0.0f, 0.0f}, 1000.0f);
+  for (const double x : {0.0, 0.5, 1.0, 1.5, 2.0, 3.0}) {
+    renderer.look(lookingAt({x, 0.0, 0.0}, {x + 1.0, 0.0, 0.0}));
+    const image::LinearImage picture = glow(renderer, lamp, 100.0);
+    const int edge = static_cast<int>(239.5 - kFocal_px * 1.5 / (15.0 - x));
+    const float beside = *picture.at(320, edge - 4);
+    EXPECT_GT(beside, 0.0f);
+    // The board's front is black and unlit, and the fog before it sees no more than what shines over it.
+    for (int y = edge + 3; y < 300; ++y) EXPECT_LT(*picture.at(320, y), 0.1f * beside) << x << " " << y;
+    EXPECT_LT(*picture.at(320, 240), 0.01f * beside) << x;
+  }
+}
+
 TEST_F(LampGlow, IsNotThereWithoutFogAndTheSameForAnyThreads) {
   light::Illumination clear(daylightAt(0.0, -40.0));
   const image::LinearImage dark = renderer_.light(clear);

@@ -48,14 +48,13 @@ struct FogScatter::Line {
 FogScatter::FogScatter(const LampBeam& beam, const sky::Fog& fog, const Eigen::Vector3f& eye)
     : beam_(beam), fog_(fog), eye_(eye) {}
 
-Eigen::Vector3f FogScatter::middle(const Eigen::Vector3f& towards, const FogSlices& slices,
-                                   std::size_t slice) const {
+Eigen::Vector3f FogScatter::middle(const Eigen::Vector3f& towards, float from_m, float to_m) const {
   const Line line(*this, towards);
-  const float angle = 0.5f * (line.angleAt(slices.end(slice)) + line.angleAt(slices.end(slice + 1)));
+  const float angle = 0.5f * (line.angleAt(from_m) + line.angleAt(to_m));
   return line.start + line.distanceAt(angle) * towards;
 }
 
-void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slices, const OpenSlices& open,
+void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slices, const LampOpen& open,
                           GlowProfile* profile) const {
   if (!std::isfinite(fog_.begins(towards.z()))) return;
   const Line line(*this, towards);
@@ -65,7 +64,8 @@ void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slice
   for (std::size_t i = 0; i < FogSlices::kCount; ++i) {
     const float to = line.angleAt(slices.end(i + 1));
     float of_slice = 0.0f;
-    const int steps = open[i] > 0.0f ? 1 + static_cast<int>(std::ceil((to - from) / kStep_rad)) : 0;
+    const bool seen = open.passed[i] > 0.0f || open.last[i] > 0.0f;
+    const int steps = seen ? 1 + static_cast<int>(std::ceil((to - from) / kStep_rad)) : 0;
     for (int k = 0; k < steps; ++k) {
       // By equal angles from the lamp its 1 / r² is met: ds = r² / D dθ.
       const float distance_m =
@@ -77,10 +77,13 @@ void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slice
       of_slice += beam_.share(point) * sky::dropletPhase(-towards.dot(away) / r) *
                   std::exp(-per_m * (distance_m + r)) * r * r;
     }
-    if (steps > 0)
-      sum += beam_.intensity() *
-             (of_slice * open[i] * fog_.per_m * (to - from) / (static_cast<float>(steps) * line.beside_m));
-    (*profile)[i + 1] += sum;
+    if (seen) {
+      const Eigen::Array3f light = beam_.intensity() * (of_slice * fog_.per_m * (to - from) /
+                                                        (static_cast<float>(steps) * line.beside_m));
+      sum += light * open.passed[i];
+      profile->last[i] += light * open.last[i];
+    }
+    profile->before[i + 1] += sum;
     from = to;
   }
 }

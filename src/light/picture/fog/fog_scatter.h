@@ -26,10 +26,17 @@ class FogSlices {
   std::array<float, kCount + 1> ends_;
 };
 
-/// Luminance, cd/m², of the fog before each end of the slices.
-using GlowProfile = std::array<Eigen::Array3f, FogSlices::kCount + 1>;
+/// Luminance of the fog on a line of sight, cd/m².
+struct GlowProfile {
+  std::array<Eigen::Array3f, FogSlices::kCount + 1> before;  ///< each end of the slices
+  std::array<Eigen::Array3f, FogSlices::kCount> last;        ///< each slice's, where one looks no farther
+};
 /// Share of a lamp that is not hidden from the fog, by slice.
 using OpenSlices = std::array<float, FogSlices::kCount>;
+/// The same where one looks farther, and where a slice is the last.
+struct LampOpen {
+  OpenSlices passed, last;
+};
 
 /// Single scattering, with less extinction than there is, since light that droplets hardly turn is not lost
 /// to the glow: k times that, on the way from the lamp as on that to the eye, k = 1 / (1 + a / 5°), at least
@@ -44,12 +51,12 @@ class FogScatter {
 
   FogScatter(const LampBeam& beam, const sky::Fog& fog, const Eigen::Vector3f& eye);
 
-  /// Adds the lamp's light on the way `towards`, a unit vector, to the slices' ends.
-  void addAlong(const Eigen::Vector3f& towards, const FogSlices& slices, const OpenSlices& open,
+  /// Adds the lamp's light on the way `towards`, a unit vector.
+  void addAlong(const Eigen::Vector3f& towards, const FogSlices& slices, const LampOpen& open,
                 GlowProfile* profile) const;
-  /// Where a slice's light comes from, in `map`: the middle of the angles at which the lamp sees it.
-  /// `towards` meets fog.
-  Eigen::Vector3f middle(const Eigen::Vector3f& towards, const FogSlices& slices, std::size_t slice) const;
+  /// Where the light of a part of such a way comes from, in `map`: the middle of the angles at which the lamp
+  /// sees it, between two distances from where fog begins. `towards` meets fog.
+  Eigen::Vector3f middle(const Eigen::Vector3f& towards, float from_m, float to_m) const;
   const LampBeam& beam() const { return beam_; }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -15,16 +16,20 @@ namespace {
 /// px beside a tile within which a lamp still glows so unevenly that corners of cells do not tell.
 constexpr float kMargin_px = 16.0f;
 constexpr float kNowhere_px = -1e6f;
+/// What a corner counts that looks less far than to a slice, or past one that is the last: what it knows may
+/// be of another room, and counts where no other corner knows more.
+constexpr float kUnlike = 0.01f;
 
 GlowProfile dark() {
   GlowProfile profile;
-  profile.fill(Eigen::Array3f::Zero());
+  profile.before.fill(Eigen::Array3f::Zero());
+  profile.last.fill(Eigen::Array3f::Zero());
   return profile;
 }
 
 Eigen::Array3f at(const GlowProfile& profile, float place) {
   const auto slice = std::min(static_cast<std::size_t>(place), FogSlices::kCount - 1);
-  return profile[slice] + (place - static_cast<float>(slice)) * (profile[slice + 1] - profile[slice]);
+  return profile.before[slice] + (place - static_cast<float>(slice)) * profile.last[slice];
 }
 
 /// Those that make all but a small share of the glow, by what of each may reach the eye, as they come.
@@ -101,6 +106,7 @@ LampGlow::LampGlow(const std::vector<scene::Lamp>* lamps, const sky::Fog& fog, c
     pixels_.push_back(place ? Eigen::Vector2f(place->pixel.cast<float>())
                             : Eigen::Vector2f::Constant(kNowhere_px));
   }
+  findEnds(visibility);
   open_.resize(beams_.size());
   tbb::parallel_for(std::size_t{0}, beams_.size(), [&](std::size_t i) { findShadows(i, visibility); });
   profiles_.assign(corners_.size(), dark());
@@ -108,6 +114,21 @@ LampGlow::LampGlow(const std::vector<scene::Lamp>* lamps, const sky::Fog& fog, c
     for (std::size_t lamp = 0; lamp < beams_.size(); ++lamp)
       add(lamp, corners_.x(i), corners_.y(i), &profiles_[i]);
   });
+}
+
+void LampGlow::findEnds(const Visibility& visibility) {
+  RayList rays;
+  rays.reserve(shadow_corners_.size());
+  for (std::size_t i = 0; i < shadow_corners_.size(); ++i)
+    rays.add(static_cast<std::uint32_t>(i), surfaces_.eye,
+             surfaces_.towards(shadow_corners_.x(i), shadow_corners_.y(i)));
+  std::vector<Hit> hits(rays.size());
+  visibility.closest(rays.rays(), hits.data());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const float sine = surfaces_.towards(shadow_corners_.x(i), shadow_corners_.y(i)).z();
+    ends_m_.push_back(hits[i].triangle == Hit::kMiss ? std::numeric_limits<float>::infinity()
+                                                     : hits[i].distance - fog_.begins(sine));
+  }
 }
 
 void LampGlow::findShadows(std::size_t lamp, const Visibility& visibility) {
@@ -123,7 +144,9 @@ void LampGlow::findShadows(std::size_t lamp, const Visibility& visibility) {
     const Eigen::Vector3f towards = surfaces_.towards(shadow_corners_.x(i), shadow_corners_.y(i));
     if (!std::isfinite(fog_.begins(towards.z()))) continue;
     for (std::size_t slice = 0; slice < FogSlices::kCount; ++slice) {
-      const Eigen::Vector3f point = scatter_[lamp].middle(towards, slices_, slice);
+      const float from_m = slices_.end(slice), end_m = slices_.end(slice + 1),
+                  to_m = ends_m_[i] > from_m ? std::min(ends_m_[i], end_m) : end_m;
+      const Eigen::Vector3f point = scatter_[lamp].middle(towards, from_m, to_m);
       const Eigen::Vector3f way = beam.ball() - point;
       const float distance_m = way.norm();
       if (distance_m <= beam.radius_m()) continue;
@@ -139,13 +162,26 @@ void LampGlow::findShadows(std::size_t lamp, const Visibility& visibility) {
   }
 }
 
-OpenSlices LampGlow::openAt(std::size_t lamp, float x, float y) const {
+LampOpen LampGlow::openAt(std::size_t lamp, float x, float y) const {
   const Among about = among(shadow_corners_, x, y);
-  OpenSlices open;
-  open.fill(0.0f);
+  LampOpen open{}, weights{};
   for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t slice = 0; slice < FogSlices::kCount; ++slice)
-      open[slice] += about.weights[k] * open_[lamp][about.corners[k]][slice];
+    const std::size_t corner = about.corners[k];
+    const float end_m = ends_m_[corner];
+    for (std::size_t slice = 0; slice < FogSlices::kCount; ++slice) {
+      const bool reached = slices_.end(slice) < end_m, passed = slices_.end(slice + 1) < end_m;
+      const float share = open_[lamp][corner][slice],
+                  in_passed = about.weights[k] * (reached ? 1.0f : kUnlike),
+                  in_last = in_passed * (passed ? kUnlike : 1.0f);
+      open.passed[slice] += in_passed * share;
+      open.last[slice] += in_last * share;
+      weights.passed[slice] += in_passed;
+      weights.last[slice] += in_last;
+    }
+  }
+  for (std::size_t slice = 0; slice < FogSlices::kCount; ++slice) {
+    open.passed[slice] /= weights.passed[slice];
+    open.last[slice] /= weights.last[slice];
   }
   return open;
 }
@@ -194,7 +230,10 @@ class LampGlow::OfTile {
     *profile = dark();
     for (std::size_t k = 0; k < 4; ++k) {
       const GlowProfile& corner = at(about.corners[k]);
-      for (std::size_t i = 0; i < profile->size(); ++i) (*profile)[i] += about.weights[k] * corner[i];
+      for (std::size_t i = 0; i <= FogSlices::kCount; ++i)
+        profile->before[i] += about.weights[k] * corner.before[i];
+      for (std::size_t i = 0; i < FogSlices::kCount; ++i)
+        profile->last[i] += about.weights[k] * corner.last[i];
     }
     for (const std::size_t lamp : near_) glow_.add(lamp, right, down, profile);
   }
@@ -233,7 +272,7 @@ void LampGlow::addTo(const Tile& tile, const SkyPixel& sky, image::LinearImage* 
         pixel += at(profile, slices_.place(distance_m)) *
                  (weight * static_cast<float>(surface->samples) * surface->air_share);
       }
-      if (SkyPixel::skySamples(tile, x, y) > 0) pixel += profile.back() * sky.skyShare(tile, x, y);
+      if (SkyPixel::skySamples(tile, x, y) > 0) pixel += profile.before.back() * sky.skyShare(tile, x, y);
     }
   }
 }

@@ -19,7 +19,8 @@ namespace sunlit::light {
 
 /// Found along the corners of cells of pixels and interpolated, but in tiles about a lamp, whose glow is
 /// found there for each pixel: within 3 % of looking along each. What hides a lamp from the fog casts its
-/// shadow into it, coarsely: by rays along every fourth corner, each of a whole slice.
+/// shadow into it, coarsely: by rays along every fourth corner, each of a whole slice, or of its part before
+/// what is seen there.
 class LampGlow {
  public:
   /// Keeps references to `surfaces` and `visibility`. `lamps` may be null. Casts rays, in parallel.
@@ -52,8 +53,10 @@ class LampGlow {
   };
   static Among among(const Lattice& lattice, float x, float y);
 
+  /// How far one sees into the fog along each of the shadows' corners.
+  void findEnds(const Visibility& visibility);
   void findShadows(std::size_t lamp, const Visibility& visibility);
-  OpenSlices openAt(std::size_t lamp, float x, float y) const;
+  LampOpen openAt(std::size_t lamp, float x, float y) const;
   void add(std::size_t lamp, float x, float y, GlowProfile* profile) const;
   /// Lamps that shine in the tile or just beside it.
   std::vector<std::size_t> near(const Tile& tile) const;
@@ -67,6 +70,7 @@ class LampGlow {
   std::vector<FogScatter> scatter_;      ///< of each
   std::vector<Eigen::Vector2f> pixels_;  ///< of each, far outside where none is
   Lattice corners_, shadow_corners_;
+  std::vector<float> ends_m_;                  ///< at shadow_corners_, from where fog begins
   std::vector<std::vector<OpenSlices>> open_;  ///< of each lamp, at shadow_corners_
   std::vector<GlowProfile> profiles_;          ///< at corners_; empty: nothing glows
 };
