@@ -8,6 +8,7 @@ matplotlib.rcdefaults()  # not by a matplotlibrc of the user's: LaTeX and other 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
 import numpy as np  # noqa: E402
+from matplotlib import ticker  # noqa: E402
 
 from . import names  # noqa: E402
 
@@ -19,7 +20,7 @@ STYLE = {
     "font.family": "DejaVu Sans", "font.size": 8, "axes.titlesize": 9, "axes.titleweight": "bold",
     "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False,
     "axes.edgecolor": "#555555", "xtick.color": "#333333", "ytick.color": "#333333", "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6, "axes.grid": True, "grid.color": "#e4e4e4", "grid.linewidth": 0.6,
+    "ytick.major.width": 0.6, "axes.formatter.useoffset": False, "axes.grid": True, "grid.color": "#e4e4e4", "grid.linewidth": 0.6,
     "legend.frameon": False, "svg.fonttype": "path", "svg.hashsalt": "sunlit", "path.simplify": True,
 }
 
@@ -92,6 +93,17 @@ def panels_over_path(output, along, shown, draw):
                 axis.set_xlabel(x_name)
         legend_above(figure, axes)
         return svg(figure)
+
+
+def by_powers_of_ten(axis):
+    """A logarithmic y axis that names plain numbers, and 2 and 5 between the powers where these are few."""
+    axis.set_yscale("log")
+    plain = ticker.FuncFormatter(lambda value, _: f"{value:g}")
+    lowest, highest = axis.get_ylim()
+    between = (2.0, 5.0) if highest < 1e3 * lowest else ()
+    axis.yaxis.set_major_formatter(plain)
+    axis.yaxis.set_minor_locator(ticker.LogLocator(subs=between) if between else ticker.NullLocator())
+    axis.yaxis.set_minor_formatter(plain)
 
 
 def along_path(output, pairs):

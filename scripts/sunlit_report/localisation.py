@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from . import names
-from .figures import STYLE, colour_of, grid_of, legend_above, panels_over_path, svg
+from .figures import STYLE, by_powers_of_ten, colour_of, grid_of, legend_above, panels_over_path, svg
 from .queries import WITHIN
 
 USABLE_WITHIN = WITHIN[1]  # what a band is green by
@@ -133,7 +133,7 @@ def errors_along_path(output, shown_pairs):
             if (*pair, detector) in queries:
                 _draw_errors(axis, to_x, queries[(*pair, detector)], colour_of(number),
                              f"{names.condition(pair[1])} in the map of {names.condition_of_map(pair[0])}")
-        axis.set_yscale("log")
+        by_powers_of_ten(axis)
         axis.set_ylabel("error / m")
 
     return panels_over_path(output, queries.values(), detectors(queries), draw)

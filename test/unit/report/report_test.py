@@ -334,6 +334,28 @@ class Parts(unittest.TestCase):
         got = figures.running_median(np.array([1.0, math.nan, 3.0, 100.0, 5.0, math.nan, math.nan, math.nan]), 3)
         np.testing.assert_array_equal(got, [1.0, 2.0, 51.5, 5.0, 52.5, 5.0, math.nan, math.nan])
 
+    def test_axes_name_plain_numbers(self):
+        def labels(values, prepare=lambda axis: None):
+            with figures.plt.rc_context(figures.STYLE):
+                figure, axis = figures.plt.subplots()
+                axis.plot(values)
+                prepare(axis)
+                figure.canvas.draw()
+                low, high = axis.get_ylim()
+                found = [label.get_text() for which in ("major", "minor") for label in axis.get_yticklabels(which=which)
+                         if low <= label.get_position()[1] <= high]
+                offset = axis.yaxis.get_offset_text().get_text()
+                figures.plt.close(figure)
+            return sorted(filter(None, found)), offset
+
+        # Little more than a decade: powers of ten alone would name one.
+        self.assertEqual(labels([0.004, 0.06], figures.by_powers_of_ten), (["0.005", "0.01", "0.02", "0.05"], ""))
+        self.assertEqual(labels([0.002, 50.0], figures.by_powers_of_ten), (["0.01", "0.1", "1", "10"], ""))
+        # Close to 1, as a difference of pixels is: no difference to 0.9999.
+        found, offset = labels([1.0, 0.99998])
+        self.assertEqual(offset, "")
+        self.assertTrue(all(label.startswith(("0.9999", "1.0000")) for label in found), found)
+
     def test_scale_bars_have_round_lengths(self):
         self.assertEqual([map_figure.round_length(v) for v in (7.3, 1.99, 499.0, 500.0, 0.3)], [5, 1, 200, 500, 0.2])
 
