@@ -2,9 +2,8 @@
 
 import math
 
-import numpy as np
-
 from . import names
+from .comparison_rows import SIGNIFICANT
 from .tables import MISSING
 
 SHOWN = 40  # rows
@@ -12,7 +11,7 @@ METRICS = {"d": "D", "matching_score_3px": "matching score", "precision_3px": "p
            "within_0.25m_2deg": "within 0.25 m, 2°", "within_0.5m_5deg": "within 0.5 m, 5°",
            "within_5m_10deg": "within 5 m, 10°", "error_m": "error / m"}
 TABLE_HEADER = ["metric", "of", "a", "b", "n", "left out", "mean a − b", "95 % interval", "p", "p (Holm)"]
-COUNTS_HEADER = ["between", "metric", "compared", "more than chance", "n", "undefined", "failed", "least p (Holm)"]
+COUNTS_HEADER = ["between", "metric", "compared", "long enough", "more than chance", "n", "undefined", "failed", "least p (Holm)"]
 
 
 def _hours(name, pairs):
@@ -55,9 +54,18 @@ DRAWN_P = 1e-5  # the least of drawn signs
 
 
 def _least_p(row):
-    """That the signs of its blocks can have."""
-    blocks = -(-row.n // row.block_length) if row.block_length else 0
+    """That the signs of its blocks can have; NaN where there is no p, or where signs change nothing: all is 0."""
+    is_nothing = math.isnan(row.p) or row.mean_difference == row.low == row.high == 0.0
+    blocks = -(-row.n // row.block_length) if row.block_length and not is_nothing else 0
     return max(2.0 ** (1 - blocks), DRAWN_P) if blocks else math.nan
+
+
+def _holm(rising, tested):
+    """Corrected, of so many that were tested."""
+    corrected = []
+    for index, p in enumerate(rising):
+        corrected.append(max([min(1.0, (tested - index) * p)] + corrected[-1:]))
+    return corrected
 
 
 def _between(counts):
@@ -78,11 +86,12 @@ def count_rows(output):
     """Of text, in the order of COUNTS_HEADER. Where even the least p is no less than 5 % the path is too short to tell."""
     rows = []
     for family, metric, group in counts(output):
-        least = np.nanmin([_least_p(row) for row in group]) if any(row.block_length for row in group) else math.nan
         tested = sum(not math.isnan(row.p) for row in group)
-        rows.append([family, metric, str(len(group)), str(sum(row.is_significant for row in group)),
+        reachable = _holm(sorted(least for least in map(_least_p, group) if not math.isnan(least)), tested)
+        rows.append([family, metric, str(len(group)), str(sum(p < SIGNIFICANT for p in reachable)),
+                     str(sum(row.is_significant for row in group)),
                      _between([row.n for row in group]), _between([row.undefined for row in group]),
-                     _between([row.failed for row in group]), _p(min(1.0, tested * least))])
+                     _between([row.failed for row in group]), _p(reachable[0] if reachable else math.nan)])
     return rows
 
 

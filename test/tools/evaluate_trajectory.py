@@ -71,6 +71,17 @@ class EvaluateTrajectory(unittest.TestCase):
         self.assertAlmostEqual(rmse["se3"], rmse["yaw"], 9)
         self.assertGreater(rmse["se3"], 1)
 
+    def test_a_turn_that_errors_decide_is_warned_of(self):
+        # 30 m straight ahead, and an estimate 5 mm beside it to and fro, where one 8 m beside it would decide the roll.
+        straight = [(1e9 + 0.1 * i, 0.6 * i, 0.001 * math.sin(i), 0.0) for i in range(50)]
+        self.truth = self.write("straight.txt", tum(straight))
+        estimate = self.write("estimate.txt", tum([(t, x, y, 0.005 * math.cos(2.3 * x)) for t, x, y, _ in straight]))
+        for align, is_doubtful in (("none", False), ("yaw", False), ("se3", True), ("sim3", True)):
+            done = self.evaluate(estimate, "--align", align)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual("ate_deg may tell of that alone" in done.stderr, is_doubtful, align)
+            self.assertEqual(len(done.stderr.splitlines()), int(is_doubtful))
+
     def test_rows_are_there_for_every_delta(self):
         done = self.evaluate(self.truth)
         self.assertEqual(done.returncode, 0)

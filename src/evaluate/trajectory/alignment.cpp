@@ -39,6 +39,22 @@ double squares(const Points& points) {
   return sum;
 }
 
+/// What a turn about an axis hangs on: Similarity::loose_rad's u, and Σ r · r′ / n.
+struct Turn {
+  Eigen::Vector3d axis;
+  double decided_m2;
+};
+
+double loose(const Similarity& fitted, const Centred& estimate, const Centred& truth, const Turn& turn) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < truth.points.size(); ++i) {
+    const Eigen::Vector3d error = truth.points[i] - fitted.scale * (fitted.rotation * estimate.points[i]);
+    const double torque = turn.axis.dot(truth.points[i].cross(error));
+    sum += torque * torque;
+  }
+  return sum > 0.0 ? std::sqrt(sum / static_cast<double>(truth.points.size())) / turn.decided_m2 : 0.0;
+}
+
 /// In the names of Umeyama: x the estimate, y the truth.
 Similarity umeyama(const Centred& x, const Centred& y, bool with_scale) {
   const double n = static_cast<double>(x.points.size());
@@ -63,6 +79,8 @@ Similarity umeyama(const Centred& x, const Centred& y, bool with_scale) {
   result.rotation = svd.matrixU() * s.asDiagonal() * svd.matrixV().transpose();  // eq. 40
   if (with_scale) result.scale = d.dot(s) / (squares(x.points) / n);             // eq. 42, 36
   result.translation = y.mean - result.scale * (result.rotation * x.mean);       // eq. 41
+  // About the first axis; about the others these sums are larger.
+  result.loose_rad = loose(result, x, y, {svd.matrixU().col(0), d[1] + s[2] * d[2]});
   return result;
 }
 
@@ -79,6 +97,9 @@ Similarity yaw(const Centred& a, const Centred& b) {
   Similarity result;
   result.rotation = Eigen::AngleAxisd(std::atan2(across, along), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   result.translation = b.mean - result.rotation * a.mean;
+  result.loose_rad =
+      loose(result, a, b,
+            {Eigen::Vector3d::UnitZ(), std::hypot(along, across) / static_cast<double>(a.points.size())});
   return result;
 }
 

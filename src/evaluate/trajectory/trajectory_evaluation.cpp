@@ -6,9 +6,12 @@
 
 #include "evaluate/files/files.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::evaluate {
 namespace {
+
+constexpr double kTooLoose_rad = 0.2;
 
 MatchedPoses matchedBy(const Association& association, const Trajectory& truth, const Trajectory& estimate) {
   MatchedPoses matched;
@@ -45,6 +48,16 @@ TrajectoryEvaluation evaluateTrajectory(const Trajectory& truth, const Trajector
   for (const Delta& delta : options.deltas)
     addRows("rpe_" + delta.name(), relativeErrors(result.matched, delta, options.pairs_from), &result.rows);
   return result;
+}
+
+std::string doubtOfAlignment(const TrajectoryEvaluation& evaluation) {
+  const double loose_rad = evaluation.truth_from_estimate.loose_rad;
+  if (!(loose_rad > kTooLoose_rad)) return "";
+  return "positions hardly decide how the alignment turns the estimate, as along a line: their errors could "
+         "turn it by " +
+         (loose_rad < kPi ? std::to_string(std::lround(loose_rad / kRadPerDeg)) + " deg"
+                          : std::string("any angle")) +
+         ", and ate_deg may tell of that alone; to align by yaw, or not at all, leaves less open";
 }
 
 void writeTrajectoryTable(const std::string& path, const TrajectoryEvaluation& evaluation) {

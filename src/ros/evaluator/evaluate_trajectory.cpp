@@ -191,6 +191,8 @@ void run(const Options& options) {
   if (options.evaluation.align != Alignment::kNone) tellAlignment(evaluation.truth_from_estimate);
   tellRows(evaluation.rows);
   std::printf("%s/trajectory.csv\n", options.output.c_str());
+  if (const std::string doubt = doubtOfAlignment(evaluation); !doubt.empty())
+    std::fprintf(stderr, "warning: %s\n", doubt.c_str());
 }
 
 }  // namespace

@@ -213,6 +213,22 @@ class SelfTests(InFolder):
     def test_direct_differences_must_be_exactly_zero(self):
         self.assertEqual(self.verdict_of(difference="euclidean_rgb", value=1e-12), findings.NOT_REPRODUCED)
 
+    def test_a_lone_feature_has_no_second_neighbour(self):
+        lone = [line.replace(",500,400,50,", ",1,1,0,") for line in made.self_frames(difference="surf", value=0.01)]
+        self.write("frames.csv", made.frames() + lone)
+        self.assertEqual(self.verdicts()[5], findings.REPRODUCED)
+
+    def test_of_hours_that_the_paper_has_not_nothing_is_judged(self):
+        night = [made.frame(pose, "h00", "self_test/h00", name, value) for pose in range(4)
+                 for name, value in (("sift", math.nan), ("orb", 0.5))]
+        self.write("frames.csv", made.frames() + made.self_frames() + night)
+        self.assertEqual(self.verdicts()[5], findings.REPRODUCED)
+        # Alone they are: of what is defined.
+        self.write("frames.csv", made.frames() + night)
+        self.assertEqual(self.verdicts()[5], findings.NOT_JUDGED)
+        self.write("frames.csv", made.frames(differences=["orb"]) + [line for line in night if ",orb," in line])
+        self.assertEqual(self.verdicts()[5], findings.NOT_REPRODUCED)
+
     def test_absent_self_tests_cannot_be_judged(self):
         self.write("frames.csv", made.frames())
         self.assertEqual(self.verdicts()[5], findings.NOT_JUDGED)
@@ -636,14 +652,24 @@ class Comparisons(InFolder):
         output = self.read()
         methods, hours = comparisons.count_rows(output)
         # 39 poses make 13 blocks of 3, whose p is 1/4096 at least; 30 poses 10. Of three of the methods one has no p.
-        self.assertEqual(methods, ["methods", "D", "3", "2", "39", "1", "0", "0.0005"])
-        self.assertEqual(hours, ["hours", "error / m", "1", "0", "30", "0", "8", "0.0020"])
+        self.assertEqual(methods, ["methods", "D", "3", "2", "2", "39", "1", "0", "0.0005"])
+        self.assertEqual(hours, ["hours", "error / m", "1", "1", "0", "30", "0", "8", "0.0020"])
         self.assertEqual(comparisons.significant_rows(output), (
             [["D", pair, "SIFT", "ORB", "39", "1 undefined", "-0.125", "[-0.250, -0.062]", "< 0.0001", "< 0.0001"]
              for pair in ("4–20 h", "12–20 h")], 2))
         self.assertEqual(comparisons._row(output.comparisons[0], made.PAIRS)[-2:], [tables.MISSING] * 2)
         self.assertEqual(comparisons._row(output.comparisons[-1], made.PAIRS)[:6],
                          ["error / m", "SIFT", "4 h in 12 h", "20 h in 12 h", "30", "8 failed, 2 alone"])
+
+    def test_what_is_0_everywhere_makes_no_path_long_enough(self):
+        # 20 blocks of 2 at a pitch dark hour, where all is lost by both; 10 and 5 blocks where there is something to tell.
+        self.write("frames.csv", made.frames(differences=["sift"]))
+        header = made.comparisons()[0]
+        row = "d,methods,h0{0}-h12,sift,orb,40,0,0,0,{1},{1},{1},1,1,{2}"
+        self.write("comparisons.csv", [header, *(row.format(hour, 0, 2) for hour in (1, 2)),
+                                       row.format(3, -0.2, 4), row.format(4, -0.2, 8)])
+        (counts,) = comparisons.count_rows(self.read())
+        self.assertEqual(counts[2:5] + counts[-1:], ["4", "1", "0", f"{4 / 2**9:.4f}"])
 
     def test_few_of_many_are_shown_and_that_is_said(self):
         self.write("frames.csv", made.frames(differences=["sift"]))
@@ -652,7 +678,7 @@ class Comparisons(InFolder):
         output = self.read()
         shown, count = comparisons.significant_rows(output)
         self.assertEqual((count, len(shown), shown[0][1], shown[-1][1]), (100, comparisons.SHOWN, "x0", "x39"))
-        self.assertEqual(comparisons.count_rows(output)[0][2:6], ["101", "100", "0 to 39", "0 to 9"])
+        self.assertEqual(comparisons.count_rows(output)[0][2:7], ["101", "100", "100", "0 to 39", "0 to 9"])
         self.assertIn(f"the {comparisons.SHOWN} surest of 100", page.render(output, findings.judge(output)))
 
     def test_errors_of_millimetres_are_no_zeros(self):

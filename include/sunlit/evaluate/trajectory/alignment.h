@@ -21,6 +21,11 @@ struct Similarity {
   double scale = 1.0;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  /// How loose the rotation is: as if the errors that it leaves were all of one sign, they would turn it so
+  /// far about the axis about which positions decide it least, which is the line of a drive along a line.
+  /// √(Σ (u · (r × e))² / n) / (Σ r · r′ / n), u being that axis, r and r′ where truth and estimate lie off
+  /// it, e their distance. 0 where nothing was fitted; may exceed π.
+  double loose_rad = 0.0;
 
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
     return scale * (rotation * point) + translation;

@@ -64,6 +64,10 @@ struct TrajectoryEvaluation {
 TrajectoryEvaluation evaluateTrajectory(const Trajectory& truth, const Trajectory& estimate,
                                         const TrajectoryOptions& options);
 
+/// Where the alignment's rotation is so loose that ate_deg may tell of it alone (beyond 0.2 rad), what to say
+/// of that; else empty.
+std::string doubtOfAlignment(const TrajectoryEvaluation& evaluation);
+
 /// trajectory.csv: metric,unit,n,unmatched,rmse,mean,median,std,min,max,sse, a line for each row; unmatched:
 /// poses of the estimate without a partner. "nan" for what is undefined. In one step.
 void writeTrajectoryTable(const std::string& path, const TrajectoryEvaluation& evaluation);

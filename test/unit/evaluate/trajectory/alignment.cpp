@@ -201,6 +201,25 @@ TEST(Alignment, OfPointsOnALineIsRefused) {
       align(Alignment::kSe3, {{0, 0, 0}, {500, 1, 0}, {1000, 0, 0}}, {{0, 0, 0}, {500, 1, 0}, {1000, 0, 0}}));
 }
 
+TEST(Alignment, TellsHowLooseItsTurnIs) {
+  // A cross of arms of 3 m along x and 1 m along y. The ends of the latter are 0.1 m up and down, which is a
+  // roll about x, and undone; or both 0.1 m up, and the others down, which no roll undoes.
+  const Points cross{{3, 0, 0}, {-3, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+  const Points bent{{3, 0, -0.1}, {-3, 0, -0.1}, {0, 1, 0.1}, {0, -1, 0.1}};
+  const double roll = std::atan(0.1);
+  Points rolled = cross;
+  for (Eigen::Vector3d& point : rolled) point = Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()) * point;
+  EXPECT_NEAR(align(Alignment::kSe3, rolled, cross).loose_rad, 0.0, 1e-12);
+  // Two of four with a torque of 1 m · 0.1 m, and 2 m² / 4 that hold against it.
+  EXPECT_NEAR(align(Alignment::kSe3, bent, cross).loose_rad, std::sqrt(2 * 0.01 / 4) / 0.5, 1e-3);
+  // Nothing of that turns it about z; nor does another scale, about any axis.
+  EXPECT_NEAR(align(Alignment::kYaw, bent, cross).loose_rad, 0.0, 1e-12);
+  Points smaller = cross;
+  for (Eigen::Vector3d& point : smaller) point *= 0.5;
+  EXPECT_NEAR(align(Alignment::kSe3, smaller, cross).loose_rad, 0.0, 1e-12);
+  EXPECT_EQ(align(Alignment::kNone, bent, cross).loose_rad, 0.0);
+}
+
 TEST(Alignment, OfYawAboveOnePlaceIsRefused) {
   const Points lift{{0.1, 0.7, 0}, {0.1, 0.7, 1}, {0.1, 0.7, 2}};
   const Points same(3, Eigen::Vector3d(0.1, 0.7, 1e6));
