@@ -200,7 +200,7 @@ std::optional<Features> FeatureCache::find(const std::string& key) {
     ++found_;
     return features;
   } catch (const std::exception& problem) {
-    if (fs::exists(file, error)) say(std::string("features are found anew: ") + problem.what());
+    if (fs::exists(file, error)) sayUnreadable(problem.what());
     return std::nullopt;
   }
 }
@@ -239,6 +239,15 @@ bool FeatureCache::takeRoom(std::uintmax_t bytes) {
 
 void FeatureCache::stopKeeping(const std::string& why) {
   if (is_keeping_.exchange(false)) say("features are not kept for other runs: " + why);
+}
+
+void FeatureCache::sayUnreadable(const std::string& why) {
+  const std::size_t count = ++unreadable_;
+  std::size_t told = 1;
+  while (told < count) told *= 10;
+  if (told != count) return;
+  say("features are found anew: " + why +
+      (count > 1 ? "; so far " + std::to_string(count) + " files of them" : ""));
 }
 
 void FeatureCache::say(const std::string& line) {

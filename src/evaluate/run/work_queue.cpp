@@ -1,11 +1,22 @@
 #include "evaluate/run/work_queue.h"
 
+#include <stdexcept>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace sunlit::evaluate {
 
 WorkQueue::WorkQueue(int threads) {
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+  threads_.reserve(static_cast<std::size_t>(threads));
+  try {
+    for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+  } catch (const std::system_error& error) {
+    // Fewer than wished do as well.
+    if (threads_.empty())
+      throw std::runtime_error(std::string("no thread can be started (") + error.what() +
+                               "): raise ulimit -u, or the job's limit of processes");
+  }
 }
 
 WorkQueue::~WorkQueue() {

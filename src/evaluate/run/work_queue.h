@@ -14,6 +14,7 @@ namespace sunlit::evaluate {
 
 class WorkQueue {
  public:
+  /// `threads` > 0; fewer, where so many cannot be started. Throws std::runtime_error where none can.
   explicit WorkQueue(int threads);
   ~WorkQueue();  ///< drops tasks that have not begun
   void add(std::function<void()> task);

@@ -195,14 +195,15 @@ class TestBags(unittest.TestCase):
         self.assertEqual(found, expected)
         files = sorted(os.listdir(kept))
         self.assertEqual(len(files), 14)  # of 3 x 2 pictures, and of h20 that of pose 0, by two detectors
-        # Each damaged file is read, named and mended.
+        # Each damaged file is read, counted and mended.
         for name in files:
             with open(os.path.join(kept, name), 'r+b') as file:
                 whole = file.read()
                 file.seek(-1, os.SEEK_END)
                 file.write(bytes([whole[-1] ^ 1]))
         output, found = run('mended')
-        self.assertEqual((found, output.count('features are found anew: ')), (expected, 14))
+        self.assertEqual((found, output.count('features are found anew: ')), (expected, 2))
+        self.assertIn('so far 10 files of them', output)
         output, found = run('warm')
         self.assertEqual((found, output.count('features are')), (expected, 0))
         self.assertEqual(sorted(os.listdir(kept)), files)

@@ -27,7 +27,8 @@ std::string featureKey(const std::string& identity, const cv::Mat& seen);
 ///
 /// Beyond a limit those go that have not been used for longest, but none that this object has read or
 /// written: a run that finds more than there is room for keeps what it found first, so that the same run
-/// again finds it there. What does not go as it should is told by one line each, and never stops anybody.
+/// again finds it there. What does not go as it should is told by one line each, files that cannot be read by
+/// one for the first, tenth, hundredth …, and never stops anybody.
 class FeatureCache {
  public:
   using Log = image::CacheFolder::Log;
@@ -50,6 +51,7 @@ class FeatureCache {
 
  private:
   void say(const std::string& line);
+  void sayUnreadable(const std::string& why);
   void stopKeeping(const std::string& why);
   /// False where there is no room for so many more.
   bool takeRoom(std::uintmax_t bytes);
@@ -62,7 +64,7 @@ class FeatureCache {
   std::atomic<bool> is_keeping_{true};
   std::mutex room_mutex_;
   std::atomic<std::uintmax_t> bytes_{0};  ///< of the folder, by what is known here
-  std::atomic<std::size_t> found_{0};
+  std::atomic<std::size_t> found_{0}, unreadable_{0};
 };
 
 constexpr double kUsualFeaturesCache_gb = 2.0;
