@@ -1,6 +1,7 @@
 #include "ros/render/path_source.h"
 
 #include <ros/console.h>
+#include <ros/this_node.h>
 
 #include <stdexcept>
 #include <utility>
@@ -64,7 +65,9 @@ std::string PathSource::fingerprint() const {
   return print.text();
 }
 
-void PathSource::onPath(const nav_msgs::Path& message) {
+void PathSource::onPath(const ros::MessageEvent<const nav_msgs::Path>& event) {
+  if (event.getPublisherName() == ros::this_node::getName()) return;  // its poses, where the topic is `path`
+  const nav_msgs::Path& message = *event.getConstMessage();
   const path::Waypoints sent = waypointsOf(message);
   if (ready()) {
     if (sent == sent_ || is_other_told_of_) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nav_msgs/Path.h>
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 
 #include <Eigen/Geometry>
@@ -46,7 +47,7 @@ class PathSource {
  private:
   /// Refuses what cannot be driven along with an error, and goes on waiting: whoever sent it may send
   /// another. Of another path, once there is one, it only warns.
-  void onPath(const nav_msgs::Path& message);
+  void onPath(const ros::MessageEvent<const nav_msgs::Path>& event);
   void refusePath(const std::string& reason);
   void sample(const path::Waypoints& waypoints);
 

@@ -280,6 +280,18 @@ class RenderControl(unittest.TestCase):
         sender.unregister()
         reader.close()
 
+    def test_its_own_path_is_none_that_it_was_sent(self):
+        sender = rospy.Publisher("/path", Path, queue_size=None, latch=True)
+        reader = Reader(["a"], node="/echoed")
+        with RenderNode("echoed", parameters(conditions=["a"], path={"file": "", "topic": "path"}, subscribers={"images": 1},
+                                             exit_when_done=True)) as node:
+            sender.publish(route(0.0, 3.0))
+            status, said = node.end()
+        self.assertEqual(status, 0, said)
+        self.assertFalse(any("nother path" in line for line in said), said)
+        sender.unregister()
+        reader.close()
+
     def test_only_every_third_pose_keeps_index_and_stamp(self):
         reader = Reader(["a"], node="/strider")
         tree = parameters(conditions=["a"], path={"first": 2, "count": 10, "stride": 3}, subscribers={"images": 1})
