@@ -109,11 +109,22 @@ class Experiment:
             return [f"all is evaluated\n{summary.tables(rows)}"]
         self._say("reporting")
         # Whatever letters the terminal has, so that it is only in our own line that some may be replaced.
-        done = subprocess.run([self.report, self.output], stdout=subprocess.PIPE, check=False,
-                              env=dict(os.environ, PYTHONIOENCODING="utf-8"))
-        if done.returncode != 0:
-            raise Failure(f"there is no report of {self.output}; the reason stands above")
-        return ["all is evaluated\n" + done.stdout.decode(errors="replace").rstrip()]
+        with subprocess.Popen([self.report, self.output], stdout=subprocess.PIPE,
+                              env=dict(os.environ, PYTHONIOENCODING="utf-8")) as report:
+            tables = self._waited_for(report)
+        if report.returncode != 0:
+            raise Failure("interrupted" if self.interruptions else
+                          f"there is no report of {self.output}; the reason stands above")
+        return ["all is evaluated\n" + tables.decode(errors="replace").rstrip()]
+
+    def _waited_for(self, process):
+        """What it prints. It is of our group, so that what interrupts us mostly interrupts it as well."""
+        while True:
+            try:
+                return process.communicate(timeout=POLL_S)[0]
+            except subprocess.TimeoutExpired:
+                if self.interruptions:
+                    process.terminate()
 
     def _say(self, doing):
         self.progress.doing = doing

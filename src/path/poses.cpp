@@ -23,6 +23,10 @@ constexpr double kFarthest_m = 1e7;
 /// More poses than this are a mistake of spacing, and would fill the memory.
 constexpr double kMostPoses = 1e7;
 
+[[noreturn]] void failAt(std::size_t index, const std::string& wrong) {
+  throw std::invalid_argument("waypoint " + std::to_string(index) + ": " + wrong);
+}
+
 }  // namespace
 
 bool areTooNear(const Eigen::Vector3d& point, const Eigen::Vector3d& previous) {
@@ -75,13 +79,25 @@ std::int64_t nanosecondsTo(int index, double rate_hz) {
          static_cast<std::int64_t>(std::llround((seconds - whole_seconds) * 1e9));
 }
 
+Waypoints withoutStandstills(const Waypoints& waypoints) {
+  Waypoints kept;
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    if (const auto fault = faultOf(waypoints[i], nullptr)) failAt(i, *fault);
+    if (kept.empty() || !areTooNear(waypoints[i], kept.back())) kept.push_back(waypoints[i]);
+  }
+  return kept;
+}
+
+std::string leftOutText(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " pose" : " poses") +
+         " left out, less than 1 mm in plan view from the one before";
+}
+
 std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options) {
   validate(options);
   if (waypoints.size() < 2) throw std::invalid_argument(tooFew(waypoints.size()));
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    if (const auto fault = faultOf(waypoints[i], i == 0 ? nullptr : &waypoints[i - 1])) {
-      throw std::invalid_argument("waypoint " + std::to_string(i) + ": " + *fault);
-    }
+    if (const auto fault = faultOf(waypoints[i], i == 0 ? nullptr : &waypoints[i - 1])) failAt(i, *fault);
   }
 
   std::vector<Eigen::Isometry3d> poses;
@@ -94,8 +110,8 @@ std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const Path
     const double yaw = heading + options.yaw.rad();
     const double wanted = std::ceil(length / options.spacing_m - kEndTolerance);
     if (static_cast<double>(poses.size()) + wanted > kMostPoses) {
-      throw std::invalid_argument("waypoint " + std::to_string(i) + ": from here to the next are " +
-                                  std::to_string(length) + " m, more poses than the 10 million allowed");
+      failAt(i, "from here to the next are " + std::to_string(length) +
+                    " m, more poses than the 10 million allowed");
     }
     const auto count = static_cast<std::size_t>(wanted);
     for (std::size_t k = 0; k == 0 || k < count; ++k) {

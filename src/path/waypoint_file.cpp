@@ -56,12 +56,14 @@ class Reader {
       if (!line.empty()) readLine(line);
     }
     if (stream.bad()) fail("cannot read on");
-    if (waypoints_.size() < 2) fail(tooFew(waypoints_.size()) + (left_out_ > 0 ? "; " + leftOutText() : ""));
-    return std::move(waypoints_);
+    Waypoints kept = withoutStandstills(waypoints_);
+    left_out_ = waypoints_.size() - kept.size();
+    if (kept.size() < 2) fail(tooFew(kept.size()) + (left_out_ > 0 ? "; " + leftOutText(left_out_) : ""));
+    return kept;
   }
 
   /// Empty where there is nothing to tell.
-  std::string note() const { return left_out_ > 0 ? file_ + ": " + leftOutText() : ""; }
+  std::string note() const { return left_out_ > 0 ? file_ + ": " + leftOutText(left_out_) : ""; }
 
  private:
   [[noreturn]] void fail(const std::string& wrong) const {
@@ -101,20 +103,11 @@ class Reader {
                 : Eigen::Vector3d(values[1], values[2], values[3]));
   }
 
-  std::string leftOutText() const {
-    return std::to_string(left_out_) + (left_out_ == 1 ? " pose" : " poses") +
-           " left out, less than 1 mm in plan view from the one before";
-  }
-
   void add(const Eigen::Vector3d& point) {
     const Eigen::Vector3d* previous = waypoints_.empty() ? nullptr : &waypoints_.back();
     // What was recorded stands still at its ends, what was written by hand by mistake.
     if (const auto fault = faultOf(point, is_csv_ ? previous : nullptr)) fail(*fault);
-    if (previous != nullptr && areTooNear(point, *previous)) {
-      ++left_out_;
-    } else {
-      waypoints_.push_back(point);
-    }
+    waypoints_.push_back(point);
   }
 
   std::string file_;

@@ -6,7 +6,6 @@ object files from that build where command and files are the same: see compile_o
 import os
 import pathlib
 import shutil
-import socket
 import subprocess
 import sys
 import tempfile
@@ -15,6 +14,9 @@ import unittest
 import rosunit
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "test" / "support"))
+from ports import free_port  # noqa: E402
+
 POSES = 2
 WAYPOINTS = SOURCE / "test" / "support" / "worlds" / "straight.csv"
 # Of models that come with the package, where SDF can be read. The built-in world needs no files, but minutes for its light as
@@ -29,12 +31,6 @@ WORLD = """<sdf version="1.6"><world name="yard">
   </model>
 </world></sdf>
 """
-
-
-def free_port():
-    with socket.socket() as listener:
-        listener.bind(("localhost", 0))
-        return listener.getsockname()[1]
 
 
 class Workspace(unittest.TestCase):

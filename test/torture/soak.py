@@ -6,7 +6,6 @@ import argparse
 import csv
 import os
 import signal
-import socket
 import statistics
 import subprocess
 import sys
@@ -16,6 +15,9 @@ import rospy
 from nav_msgs.msg import Path
 from sunlit.srv import RenderView
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
+from ports import free_port  # noqa: E402
+
 COLUMNS = ("seconds", "picture", "lap", "picture_s", "rss_mb", "threads", "files", "sun_files", "sun_rss_mb", "master_rss_mb")
 WARM_UP = 0.2          # of the time
 GROWTH_MB = 20.0       # of memory between the halves after it: what allocators do anyway
@@ -23,12 +25,6 @@ GROWTH_SHARE = 0.03
 STARTING_S = 600.0     # a bake may be among it
 MASTER_S = 60.0
 MEGABYTE = 1024.0 ** 2
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
 
 
 def usage(pid):

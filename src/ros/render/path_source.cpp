@@ -1,14 +1,40 @@
 #include "ros/render/path_source.h"
 
 #include <ros/console.h>
+#include <ros/this_node.h>
 
 #include <stdexcept>
 #include <utility>
 
 #include "sunlit/image/content_hash.h"
+#include "sunlit/quantity/range.h"
 #include "sunlit/scene/race_track.h"
 
 namespace sunlit::ros_interface {
+
+namespace {
+
+path::Waypoints waypointsOf(const nav_msgs::Path& message) {
+  path::Waypoints waypoints;
+  for (const geometry_msgs::PoseStamped& stamped : message.poses) {
+    waypoints.emplace_back(stamped.pose.position.x, stamped.pose.position.y, stamped.pose.position.z);
+  }
+  return waypoints;
+}
+
+/// Throws std::invalid_argument where the path, or one of its poses, names another frame than `map_frame`.
+/// Many planners name none in the poses.
+void requireFrames(const nav_msgs::Path& message, const std::string& map_frame) {
+  const auto require = [&](const std::string& frame, const std::string& owner) {
+    if (!frame.empty() && frame != map_frame)
+      refuse(owner + "frame_id", '"' + frame + '"', '"' + map_frame + '"');
+  };
+  require(message.header.frame_id, "its ");
+  for (std::size_t i = 0; i < message.poses.size(); ++i)
+    require(message.poses[i].header.frame_id, "waypoint " + std::to_string(i) + ": its ");
+}
+
+}  // namespace
 
 ros::Time stampOfPose(const ros::Time& start, int index, double frame_rate) {
   ros::Time stamp;
@@ -39,23 +65,35 @@ std::string PathSource::fingerprint() const {
   return print.text();
 }
 
-void PathSource::onPath(const nav_msgs::Path& message) {
-  if (ready()) return;  // the path of a run does not change under way
-  path::Waypoints waypoints;
-  for (const geometry_msgs::PoseStamped& stamped : message.poses) {
-    waypoints.emplace_back(stamped.pose.position.x, stamped.pose.position.y, stamped.pose.position.z);
+void PathSource::onPath(const ros::MessageEvent<const nav_msgs::Path>& event) {
+  if (event.getPublisherName() == ros::this_node::getName()) return;  // its poses, where the topic is `path`
+  const nav_msgs::Path& message = *event.getConstMessage();
+  const path::Waypoints sent = waypointsOf(message);
+  if (ready()) {
+    if (sent == sent_ || is_other_told_of_) return;
+    is_other_told_of_ = true;
+    ROS_WARN("Another path came on %s: it is not heeded, since the path of a run does not change under way",
+             subscriber_.getTopic().c_str());
+    return;
   }
+  std::string left_out;
   try {
-    if (!message.header.frame_id.empty() && message.header.frame_id != map_frame_) {
-      throw std::invalid_argument("its frame_id is \"" + message.header.frame_id + "\", but must be \"" +
-                                  map_frame_ + '"');
-    }
+    requireFrames(message, map_frame_);
+    const path::Waypoints waypoints = path::withoutStandstills(sent);
+    if (waypoints.size() < sent.size()) left_out = path::leftOutText(sent.size() - waypoints.size());
     sample(waypoints);
   } catch (const std::invalid_argument& error) {
-    if (error.what() == refused_for_) return;  // planners send the same again and again
-    refused_for_ = error.what();
-    ROS_ERROR("Refused the path on %s: %s", subscriber_.getTopic().c_str(), error.what());
+    refusePath(error.what() + (left_out.empty() ? "" : "; " + left_out));
+    return;
   }
+  sent_ = sent;
+  if (!left_out.empty()) ROS_INFO("The path on %s: %s", subscriber_.getTopic().c_str(), left_out.c_str());
+}
+
+void PathSource::refusePath(const std::string& reason) {
+  if (reason == refused_for_) return;  // planners send the same again and again
+  refused_for_ = reason;
+  ROS_ERROR("Refused the path on %s: %s", subscriber_.getTopic().c_str(), reason.c_str());
 }
 
 void PathSource::sample(const path::Waypoints& waypoints) {

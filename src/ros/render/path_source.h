@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nav_msgs/Path.h>
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 
 #include <Eigen/Geometry>
@@ -45,15 +46,18 @@ class PathSource {
 
  private:
   /// Refuses what cannot be driven along with an error, and goes on waiting: whoever sent it may send
-  /// another.
-  void onPath(const nav_msgs::Path& message);
+  /// another. Of another path, once there is one, it only warns.
+  void onPath(const ros::MessageEvent<const nav_msgs::Path>& event);
+  void refusePath(const std::string& reason);
   void sample(const path::Waypoints& waypoints);
 
   PathSourceOptions options_;
   std::string map_frame_;  ///< that a path on a topic must speak of
   std::vector<Eigen::Isometry3d> map_from_camera_;
   ros::Subscriber subscriber_;
-  std::string refused_for_;  ///< the latest path, if it was refused
+  path::Waypoints sent_;           ///< by the topic, as they came
+  std::string refused_for_;        ///< the latest path, if it was refused
+  bool is_other_told_of_ = false;  ///< another path, which is not heeded
 };
 
 }  // namespace sunlit::ros_interface

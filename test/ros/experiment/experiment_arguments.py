@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What roslaunch makes of the arguments of experiment.launch, without starting anything; test/unit/experiment has the rest."""
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -50,11 +51,11 @@ class ExperimentArguments(unittest.TestCase):
                     self.assertEqual([d["Enabled"] for d in clouds], [True] + [False] * (len(names) - 1))
 
     def parameters(self, *arguments, **surroundings):
-        """What experiment.launch would set, without starting anything. `surroundings`: environment variables."""
+        """What experiment.launch would set, without starting anything. `surroundings`: environment variables; None: unset."""
+        environment = {name: text for name, text in dict(os.environ, **surroundings).items() if text is not None}
         with tempfile.TemporaryDirectory() as folder:
             return yaml.safe_load(subprocess.check_output(["roslaunch", "--dump-params", "sunlit", "experiment.launch",
-                                                           "output:=" + folder, *arguments],
-                                                          env=dict(os.environ, **surroundings)))
+                                                           "output:=" + folder, *arguments], env=environment))
 
     def test_camera_and_night_of_the_published_experiment_are_the_defaults_of_the_renderer(self):
         with open(os.path.join(SOURCE, "config", "render.yaml")) as file:
@@ -101,12 +102,16 @@ class ExperimentArguments(unittest.TestCase):
                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
                 self.assertIn("argument nosie is 'true'", done.stderr)
 
-    def refused_plan(self, plan, **typed):
-        """What is said where there can be no plan."""
+    def plan_command(self, plan, counter, **typed):
+        """What roslaunch does to have a file `plan`."""
         launch_file = os.path.join(SOURCE, "launch", "experiment.launch")
         texts = {arg.get("name"): arg.get("default") for arg in ElementTree.parse(launch_file).iter("arg") if "default" in arg.attrib}
-        done = subprocess.run([os.path.join(SOURCE, "scripts", "experiment_parameters"), "plan", plan, launch_file,
-                               located("count_poses"), *("%s:=%s" % item for item in dict(texts, **typed).items())],
+        return [os.path.join(SOURCE, "scripts", "experiment_parameters"), "plan", plan, launch_file, counter,
+                *("%s:=%s" % item for item in dict(texts, **typed).items())]
+
+    def refused_plan(self, plan, **typed):
+        """What is said where there can be no plan."""
+        done = subprocess.run(self.plan_command(plan, located("count_poses"), **typed),
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
         self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
         return done.stderr
@@ -153,10 +158,29 @@ class ExperimentArguments(unittest.TestCase):
     def test_the_plan_lies_beside_the_logs(self):
         with tempfile.TemporaryDirectory() as folder:
             logs = os.path.join(folder, "with space")
-            found = self.parameters(ROS_LOG_DIR=logs)
+            found = self.parameters(ROS_LOG_DIR=logs, HOME=None)
             self.assertEqual(os.path.dirname(found["/experiment/plan"]), logs)
             with open(found["/experiment/plan"]) as file:
                 self.assertEqual(yaml.safe_load(file)["evaluator"]["poses"], found["/evaluator/poses"])
+            for there, expected in ((dict(ROS_HOME=folder), os.path.join(folder, "log")),
+                                    (dict(ROS_HOME=None, HOME=folder), os.path.join(folder, ".ros", "log")),
+                                    (dict(ROS_HOME=None, TMPDIR=folder), folder)):
+                found = self.parameters(**dict(dict(ROS_LOG_DIR=None, HOME=None), **there))
+                self.assertEqual(os.path.dirname(found["/experiment/plan"]), expected)
+
+    def test_interrupted_at_its_plan_it_ends_without_a_traceback(self):
+        with tempfile.TemporaryDirectory() as folder:
+            slow, begun = os.path.join(folder, "slow"), os.path.join(folder, "begun")
+            os.mkfifo(begun)
+            with open(slow, "w") as file:
+                file.write("#!/bin/sh\necho > '%s'\nexec sleep 60\n" % begun)
+            os.chmod(slow, 0o755)
+            planning = subprocess.Popen(self.plan_command(os.path.join(folder, "plan"), slow, output=folder), start_new_session=True,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+            with open(begun):
+                os.killpg(planning.pid, signal.SIGINT)  # as a terminal does
+            self.assertEqual(planning.communicate(timeout=60), ("", ""))
+            self.assertEqual(planning.returncode, 130)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import csv
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -446,6 +447,25 @@ class ExperimentRuns(unittest.TestCase):
         self.assertNotEqual(run.interrupt(), 0)
         self.assertIn("experiment: FAILED: interrupted", run.said())
         self.assertEqual(run.left_running(), [])
+
+    def test_ctrl_c_while_the_report_is_drawn_is_an_interruption(self):
+        slow = os.path.join(self.folder, "slow_report")
+        with open(slow, "w") as file:
+            file.write("#!/bin/sh\ntouch \"$1/begun\"\nexec sleep 600\n")
+        os.chmod(slow, 0o755)
+        for name, to_all in (("all_interrupted", True), ("only_the_watcher_interrupted", False)):
+            run, output = self.watched(name, watcher='report: "%s"' % slow)
+            run.wait_for(lambda: os.path.exists(os.path.join(output, "begun")), "begun its report")
+            if to_all:
+                self.assertNotEqual(run.interrupt(), 0)
+            else:
+                for pid, command in run.running():
+                    if "experiment_node" in command:
+                        os.kill(pid, signal.SIGINT)
+                self.assertNotEqual(run.end(), 0)
+            self.assertIn("experiment: FAILED: interrupted", run.said())
+            self.assertNotIn("no report", run.said())
+            self.assertEqual(run.left_running(), [])
 
     def test_bad_arguments_stop_it_before_it_starts(self):
         """One of each kind; test/unit/experiment and experiment_arguments.py have the rest."""

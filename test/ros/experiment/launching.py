@@ -3,9 +3,9 @@ import fcntl
 import os
 import pty
 import signal
-import socket
 import struct
 import subprocess
+import sys
 import tempfile
 import termios
 import threading
@@ -16,6 +16,9 @@ import uuid
 import rosgraph
 import rospy
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
+from ports import free_port  # noqa: E402
+
 TIMEOUT_S = 240.0  # for runs that take seconds on an idle machine
 WORLDS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support", "worlds")
 WORLD = os.path.join(WORLDS, "two_boxes.urdf")
@@ -23,12 +26,6 @@ WAYPOINTS = os.path.join(WORLDS, "straight.csv")
 POSES = 20
 LONG = dict(spacing=0.05, poses=200)  # for runs that are disturbed, so that none is over before, however slow the machine
 DIFFERENCES = "[boolean_rgb, euclidean_grey, orb]"
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
 
 
 class Terminal:

@@ -3,7 +3,6 @@
 import os
 import select
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -15,17 +14,12 @@ import rosgraph
 import rosunit
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
+from ports import free_port  # noqa: E402
 from programs import located  # noqa: E402
 
 NODES = ("evaluator_node", "render_node", "sun_position_node")
 LONG_s = 30.0  # far more than a node takes to notice
 MEANWHILE_s = 1.5  # some rounds of the watch
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
 
 
 class Master:

@@ -1,11 +1,9 @@
 #!/usr/bin/python3
-"""Start, pause, single views, following a TF frame, and what the node says while it waits."""
-import copy
+"""Start, pause, single views, paths on a topic, and what the node says while it waits."""
 import datetime
 import math
 import os
 import re
-import struct
 import tempfile
 import threading
 import time
@@ -14,9 +12,9 @@ import unittest
 import rosbag
 import rospy
 import rostest
-from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
+from geometry_msgs.msg import Pose, PoseStamped
 from nav_msgs.msg import Path
-from rendering import BOX_FACE_M, Process, Reader, RenderNode, Sky, Sun, TIMEOUT_S, Transforms, following, instant_of, parameters, service
+from rendering import Process, Reader, RenderNode, Sky, Sun, TIMEOUT_S, instant_of, parameters, service
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import Trigger
@@ -29,14 +27,6 @@ def camera_at(x):
     pose = Pose()
     pose.position.x, pose.position.z, pose.orientation.w = x, 1.0, 1.0
     return pose
-
-
-def robot_at(x, stamp):
-    transform = TransformStamped()
-    transform.header.frame_id, transform.child_frame_id, transform.header.stamp = "map", "robot", stamp
-    transform.transform.translation.x, transform.transform.translation.z = x, 1.0
-    transform.transform.rotation.w = 1.0
-    return transform
 
 
 def route(*xs, frame="map"):
@@ -121,71 +111,6 @@ class RenderControl(unittest.TestCase):
                 self.assertFalse(answer.success)
                 self.assertIn(part, answer.message)
         reader.close()
-
-    def test_follows_a_frame_with_its_stamps(self):
-        sender = Transforms()
-        tree = following(conditions=["a"], frame_rate=1000.0, camera={"follow_frame": "robot"}, subscribers={"images": 1})
-        stamps = [rospy.Time(2000 + second) for second in range(5)]
-        with RenderNode("follower", tree) as node:
-            node.line_with("Waiting for subscribers of /a/camera/image_raw")
-            reader = Reader(["a"], node="/follower")
-            node.line_with("Waiting for the TF frame robot")
-            sender.wait_for_readers(2)  # the node, and the reader here
-            sender.send(robot_at(math.inf, rospy.Time(1999)))  # TF takes it
-            self.assertIn("from map to robot on TF is not finite", node.line_with("finite"))
-            for index, stamp in enumerate(stamps):
-                sender.send(robot_at(2.0 * index, stamp))
-                reader.wait("/camera/depth/image_raw", index + 1)
-            self.assertEqual([i.header.stamp for i in reader.wait("/a/camera/image_raw", 5)], stamps)
-            for index, depth in enumerate(reader.of("/camera/depth/image_raw")):
-                centre = struct.unpack_from("<f", depth.data, 36 * depth.step + 48 * 4)[0]
-                # Single precision and the interpolation of a depth buffer.
-                self.assertAlmostEqual(centre, BOX_FACE_M - 2.0 * index, delta=1e-3)
-            static, = reader.wait("/tf_static", 1)[0].transforms
-            self.assertEqual((static.header.frame_id, static.child_frame_id), ("robot", "camera_optical_frame"))
-            self.assertEqual({t.child_frame_id for m in reader.of("/tf") for t in m.transforms}, {"robot"})
-            # Under a sun that moves there is one picture for each of its places, whatever frame_rate asks for.
-            sky = Sky("/a/")
-            for index in range(12):  # the first may be under the sun before
-                sky.send_sun(2010.0 + index, rate=1.0)
-                sender.send(robot_at(0.0, rospy.Time.from_sec(2010.5 + index)))
-                sky.send_sun(2011.0 + index, rate=1.0)
-                reader.wait("/a/camera/image_raw", 6 + index)
-            self.assertIn("a picture every 0.001 s, but the sun comes every 1.000 s", node.line_with("frame_rate asks"))
-            for publisher in sky.publishers:
-                publisher.unregister()
-        reader.close()
-        sender.close()
-
-    def test_leaves_the_optical_frame_to_the_robot_that_has_it(self):
-        tree = following(conditions=["a"], frame_rate=1000.0, camera={"follow_frame": "robot", "baseline": 0.5})
-        for turned, warned in ((True, False), (False, True)):
-            reader, sender = Reader(["a"], node="/follower"), Transforms()
-            optical = robot_at(0.0, rospy.Time(2000))
-            optical.header.frame_id, optical.child_frame_id, optical.transform.translation.z = "robot", "camera_optical_frame", 0.0
-            right = copy.deepcopy(optical)
-            right.child_frame_id, right.transform.translation.y = "camera_right_optical_frame", -0.5
-            if turned:  # z forward, x right, y down
-                for q in (optical.transform.rotation, right.transform.rotation):
-                    q.x, q.y, q.z, q.w = -0.5, 0.5, -0.5, 0.5
-            with RenderNode("follower", tree) as node:
-                node.line_with("Waiting for the TF frame robot")
-                sender.wait_for_readers(2)
-                sender.send(robot_at(0.0, rospy.Time(2000)), optical, right)
-                reader.wait("/a/camera/image_raw", 1)
-                node.process.send_signal(2)
-                status, said = node.end()
-            self.assertEqual(status, 0, said)
-            self.assertTrue(any("TF has the frame camera_optical_frame below robot: it is left" in line for line in said), said)
-            self.assertEqual(any("is not where pictures are taken from, which is robot" in line for line in said), warned, said)
-            of_right = [line for line in said if "WARN" in line and "camera_right_optical_frame" in line]
-            self.assertEqual(len(of_right), warned, said)
-            for line in of_right:
-                self.assertIn("which is 0.5 m to the right of robot,", line)
-                self.assertIn("another name as frames/right_optical", line)
-            self.assertEqual(reader.of("/tf_static"), [])
-            reader.close()
-            sender.close()
 
     def test_waits_for_readers_of_images_and_of_their_camera_info_apart(self):
         tree = parameters(conditions=["a"], subscribers={"images": 1, "others": 1})
@@ -308,22 +233,62 @@ class RenderControl(unittest.TestCase):
     def test_takes_a_path_from_a_topic(self):
         sender = rospy.Publisher("/route", Path, queue_size=None, latch=True)  # sent at once
         reader = Reader(["a"], node="/routed")
+        elsewhere = route(0.0, 3.0, 4.5)
+        elsewhere.poses[2].header.frame_id = "odom"
+        beyond = route(0.0, 0.0, math.nan)
         with RenderNode("routed", parameters(conditions=["a"], path={"file": "", "topic": "route", "spacing": 1.0},
                                              subscribers={"images": 1})) as node:
             node.line_with("Waiting for a path on /route")
             # What is no path is refused and named, once however often it comes.
-            for bad, reason in ((route(), "two"), (route(0.0, 3.0, frame="odom"), '"odom", but must be "map"'),
-                                (route(0.0, 3.0, 3.0), "waypoint"), (route(0.0, math.inf), "waypoint")):
+            for bad, reason in ((route(), "two"), (route(0.0, 3.0, frame="odom"), 'its frame_id is "odom", but must be "map"'),
+                                (elsewhere, 'waypoint 2: its frame_id is "odom", but must be "map"'),
+                                (route(3.0, 3.0), "there is 1; 1 pose left out"), (route(0.0, math.inf), "waypoint"),
+                                (beyond, "waypoint 2: x is nan")):
                 sender.publish(bad)
                 sender.publish(bad)
                 line = node.line_with("ERROR")
                 self.assertIn("Refused the path on /route: ", line)
                 self.assertIn(reason, line)
-            sender.publish(route(0.0, 3.0, 4.5))
+            # Planners repeat poses, name frames of poses or not, and orientations count for nothing.
+            whole = route(0.0, 3.0, 3.0, 4.5, 4.5)
+            whole.poses[1].header.frame_id, whole.poses[1].pose.orientation.w = "map", 0.0
+            sender.publish(whole)
+            self.assertIn("The path on /route: 2 poses left out", node.line_with("left out"))
             # 0, 1, 2, then the start of the next segment and 1 m from there.
             path = reader.wait("/path", 1)[0]
             self.assertEqual([round(p.pose.position.x, 9) for p in path.poses], [0.0, 1.0, 2.0, 3.0, 4.0])
             reader.wait("/a/camera/image_raw", 5)
+        sender.unregister()
+        reader.close()
+
+    def test_another_path_under_way_is_told_of_once(self):
+        sender = rospy.Publisher("/route", Path, queue_size=None, latch=True)
+        reader = Reader(["a"], node="/kept")
+        with RenderNode("kept", parameters(conditions=["a"], path={"file": "", "topic": "route", "spacing": 1.0},
+                                           subscribers={"images": 1}, exit_when_done=True, wait_for=["/reader/progress"],
+                                           max_ahead=1)) as node:
+            for xs in ((0.0, 3.0), (0.0, 3.0), (0.0, 4.0), (1.0, 5.0), ()):
+                sender.publish(route(*xs))
+                reader.wait("/path", 1)
+            node.line_with("Another path came on /route: it is not heeded")
+            reader.done(3)
+            status, said = node.end()
+        self.assertEqual(status, 0, said)
+        self.assertFalse(any("nother path" in line for line in said), said)
+        self.assertEqual(len(reader.of("/path")), 1)
+        self.assertEqual(len(reader.wait("/a/camera/image_raw", 3)), 3)
+        sender.unregister()
+        reader.close()
+
+    def test_its_own_path_is_none_that_it_was_sent(self):
+        sender = rospy.Publisher("/path", Path, queue_size=None, latch=True)
+        reader = Reader(["a"], node="/echoed")
+        with RenderNode("echoed", parameters(conditions=["a"], path={"file": "", "topic": "path"}, subscribers={"images": 1},
+                                             exit_when_done=True)) as node:
+            sender.publish(route(0.0, 3.0))
+            status, said = node.end()
+        self.assertEqual(status, 0, said)
+        self.assertFalse(any("nother path" in line for line in said), said)
         sender.unregister()
         reader.close()
 

@@ -88,8 +88,11 @@ class Process:
 
     def end(self):
         """Status and lines of a node that ends by itself."""
-        output, _ = self.process.communicate(timeout=TIMEOUT_S)
-        return self.process.returncode, [line for line in output.splitlines() if line.strip()]
+        watchdog = threading.Timer(TIMEOUT_S, self.process.kill)
+        watchdog.start()
+        output = self.process.stdout.read()  # communicate() would lose what came along with the latest line_with()
+        watchdog.cancel()
+        return self.process.wait(TIMEOUT_S), [line for line in output.splitlines() if line.strip()]
 
 
 class RenderNode(Process):

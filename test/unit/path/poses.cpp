@@ -132,6 +132,22 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
             "waypoint 2: it is less than 1 mm from the waypoint before it in plan view; leave it out");
 }
 
+TEST(WithoutStandstills, KeepsTheFirstOfEachPlaceAndLosesNoWayOfWhatCreeps) {
+  const Waypoints still = {{0, 0, 0}, {0, 0, 5}, {0, 0.0009, 0}, {0, 0.0018, 0}, {1, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(withoutStandstills(still), (Waypoints{{0, 0, 0}, {0, 0.0018, 0}, {1, 0, 0}}));
+  EXPECT_EQ(withoutStandstills({}), Waypoints());
+  EXPECT_EQ(leftOutText(1), "1 pose left out, less than 1 mm in plan view from the one before");
+}
+
+TEST(WithoutStandstills, NamesAWaypointByItsPlaceAmongAll) {
+  try {
+    withoutStandstills({{0, 0, 0}, {0, 0, 0}, {1, 2e7, 0}});
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "waypoint 2: y is 20000000, but must be from -10000000 to 10000000 m");
+  }
+}
+
 TEST(MotionAt, IsOfOneSpeedAndTurnsWithinASpacing) {
   // Poses 2 m apart at x = 0, 2, 4 and, round the corner at (5, 0) to the left, at y = 0, 2.
   const std::vector<Eigen::Isometry3d> poses = posesAlong({{0, 0, 0}, {5, 0, 0}, {5, 3, 0}}, {2.0, 0.0});

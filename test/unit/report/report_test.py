@@ -6,6 +6,7 @@ import itertools
 import math
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -713,6 +714,36 @@ class Page(InFolder):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn(dash, done.stdout.decode(encoding))
             self.assertIn("Report: ", done.stdout.decode(encoding))
+
+    def test_nobody_who_reads_on_is_no_word_worth(self):
+        self.write("frames.csv", made.frames(differences=["sift"]))
+        read, write = os.pipe()
+        os.close(read)
+        done = subprocess.run([sys.executable, REPORT, self.folder], stdout=write, stderr=subprocess.PIPE, check=False)
+        os.close(write)
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))
+        self.assertIn("report.html", os.listdir(self.folder))
+
+    def test_interrupted_it_ends_without_a_word(self):
+        self.write("frames.csv", made.frames(differences=["sift"]))
+        captures = os.path.join(self.folder, "captures.csv")
+        os.mkfifo(captures)
+        reporting = subprocess.Popen([sys.executable, REPORT, self.folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        with open(captures, "w", encoding="utf-8"):  # it reads them
+            reporting.send_signal(signal.SIGINT)
+            self.assertEqual(reporting.communicate(timeout=60), (b"", b""))
+        self.assertEqual(reporting.returncode, 130)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["captures.csv", "frames.csv"])
+
+    def test_without_docstrings_it_is_the_same(self):
+        self.write("frames.csv", made.frames(differences=["sift"]))
+        done = subprocess.run([sys.executable, "-OO", REPORT, self.folder], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        usual = self.run_report(self.folder)
+        self.assertEqual(done.stdout, usual.stdout)
+        for optimised in ([], ["-OO"]):
+            said = subprocess.run([sys.executable, *optimised, REPORT, "--help"], capture_output=True, text=True, check=True).stdout
+            self.assertIn("Makes report.html, one", said)
 
     def test_the_light_of_nights_has_as_many_digits_as_that_of_noons(self):
         shown = [tables.significant(value) for value in (0.00084, 0.0009996, 0.25, 12.346, 99.96, 150.4, 98765.4, 0.0)]

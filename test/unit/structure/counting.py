@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """scripts/count_tests counts whatever failed, as the runners of tests write it."""
+import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -23,6 +25,14 @@ class Counting(unittest.TestCase):
                 (results / (name + ".xml")).write_text(text, encoding="utf-8")
             done = subprocess.run([sys.executable, str(COUNT), build], stdout=subprocess.PIPE, text=True, check=False)
         return done.returncode, done.stdout.splitlines()
+
+    def test_nobody_who_reads_on_is_no_word_worth(self):
+        with tempfile.TemporaryDirectory() as build:
+            read, write = os.pipe()
+            os.close(read)
+            done = subprocess.run([sys.executable, str(COUNT), build], stdout=write, stderr=subprocess.PIPE, check=False)
+            os.close(write)
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))
 
     def test_all_that_passed_is_a_success(self):
         status, said = self.counted(a=f'<testsuite failures="0" errors="0">{PASSED}{SKIPPED}</testsuite>')
