@@ -259,6 +259,13 @@ ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, 
   return effects;
 }
 
+/// Has Assimp read any file.
+ColladaEffects readInto(Assimp::Importer& importer, const std::string& file, SceneBuilder& builder) {
+  if (extensionOf(file) == ".dae") return readCollada(file, importer, builder);
+  importer.ReadFile(file, 0);
+  return {};
+}
+
 /// What of the parts is lost.
 void warnOfLosses(const Collector& collector, const std::string& file, SceneBuilder& builder) {
   for (const std::string& mesh : collector.fading)
@@ -331,11 +338,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
     libraries = readLibraries(file, builder);
   }
   setUp(importer, up_axis);
-  ColladaEffects effects;
-  if (collada)
-    effects = readCollada(file, importer, builder);
-  else
-    importer.ReadFile(file, 0);
+  ColladaEffects effects = readInto(importer, file, builder);
   const aiScene* const scene = prepared(importer, gltf);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString() +
