@@ -5,6 +5,7 @@ a node is ever mixed with the line, and none has to be caught.
 """
 
 import os
+import sys
 import time
 
 from sunlit_experiment import progress
@@ -12,14 +13,31 @@ from sunlit_experiment import progress
 LINE_EVERY_S = 30.0
 LOWEST = 4  # rows of a terminal of which one can be spared
 
+STANDARD_OUTPUT = 1  # descriptor
+
 SAVE, RESTORE = "\x1b7", "\x1b8"
 CLEAR_LINE = "\x1b[2K"
 WHOLE_SCREEN = "\x1b[r"
 
 
+def _lead_nowhere(descriptor):
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, descriptor)
+    os.set_inheritable(descriptor, True)
+    if nowhere != descriptor:
+        os.close(nowhere)
+
+
+def open_standard_output():
+    """Where it was closed, of which Python makes None: all that is written is lost, and no other file gets its descriptor."""
+    if sys.stdout is None:
+        _lead_nowhere(STANDARD_OUTPUT)
+        sys.stdout = open(STANDARD_OUTPUT, "w", encoding="utf-8", closefd=False)  # pylint: disable=consider-using-with
+
+
 def restore(stream):
     """Gives a terminal all its rows back: for whoever remains when a Foot was killed."""
-    if stream and stream.isatty() and _knows_rows():
+    if stream.isatty() and _knows_rows():
         _write(stream.fileno(), SAVE + WHOLE_SCREEN + RESTORE)
 
 
@@ -28,9 +46,7 @@ def say(text, stream):
     try:
         print(text, file=stream, flush=True)
     except OSError:
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, stream.fileno())  # or Python would try once more as it ends, and end with another status
-        os.close(nowhere)
+        _lead_nowhere(stream.fileno())  # or Python would try once more as it ends, and end with another status
 
 
 def _write(descriptor, text):
@@ -102,19 +118,11 @@ class Lines:
         pass
 
 
-class Nowhere:
-    def show(self, status, now):
-        pass
-
-    def close(self):
-        pass
-
-
 class Display:
-    """What a user sees of a run, on `stream`; None, as Python has a standard output that was closed: nothing."""
+    """What a user sees of a run, on `stream`."""
 
     def __init__(self, stream):
-        self.place = self._place_on(stream) if stream else Nowhere()
+        self.place = self._place_on(stream)
         self.pace = progress.Pace()
 
     @staticmethod

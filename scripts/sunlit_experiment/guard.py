@@ -58,6 +58,7 @@ def reason_to_act(launch):
 
 
 def main():
+    display.open_standard_output()
     launch = Launch(int(sys.argv[1]), sys.argv[2])
     if OF_ROSLAUNCH in sys.argv[3:] and not launch.may_end_children:
         launch = Launch(GONE, sys.argv[2])

@@ -254,6 +254,8 @@ def _self_test_renderer(typed, given, places, beginning):
 
 def _about(typed, beginning):
     about = {name: str(read.flag(name, typed[name])).lower() if name in FLAGS else typed[name] for name in ABOUT}
+    every = read.whole("self_test_every", typed["self_test_every"])
+    about["self_test"] = f"every {every}" if read.flag("self_test", typed["self_test"]) else "false"
     about["camera"] = f"{_about_camera(typed)}, {typed['camera_height']} m"
     # With nothing evaluated there is nothing that the renderer would compare files with.
     return same_settings.as_before(about, beginning.about, has_inputs=beginning.evaluated > 0)

@@ -8,11 +8,13 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "sunlit/quantity/columns.h"
 #include "sunlit/quantity/field.h"
 #include "sunlit/quantity/range.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::image {
 namespace {
@@ -43,6 +45,7 @@ class CalibrationFile {
     stream.read(text.data(), static_cast<std::streamsize>(kLongest));
     text.resize(static_cast<std::size_t>(stream.gcount()));
     if (text.size() == kLongest) throw std::runtime_error(file + ": is too long for a calibration");
+    text = utf8Of(std::move(text), file);
     try {
       root_ = YAML::Load(text);
     } catch (const YAML::Exception& error) {

@@ -96,6 +96,10 @@ std::string reasonOf(int error) {
   return said;
 }
 
+void failAtFileLimit() {
+  ::signal(SIGXFSZ, SIG_IGN);
+}
+
 void requireNoDevice(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code error;

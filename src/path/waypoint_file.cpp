@@ -7,10 +7,12 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "path/waypoint_check.h"
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/columns.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::path {
 namespace {
@@ -51,7 +53,7 @@ class Reader {
     std::ifstream stream(file_);
     if (!stream) throw std::runtime_error(file_ + ": cannot open this waypoint file");
     for (std::string line; std::getline(stream, line);) {
-      ++line_number_;
+      if (++line_number_ == 1) line = utf8Of(std::move(line), file_);
       line = trimmed(line.substr(0, line.find('#')));
       if (!line.empty()) readLine(line);
     }

@@ -18,6 +18,9 @@
 #include <optional>
 #include <thread>
 
+#include "sunlit/image/files.h"
+#include "sunlit/quantity/memory.h"
+
 namespace sunlit::ros_interface {
 
 namespace {
@@ -117,13 +120,13 @@ int runNode(int argc, char** argv, const std::string& name, const std::function<
   // roscpp and its console end with the last handle: without this one, an exception that destroys the node's
   // own handles on its way here could no longer be printed.
   std::signal(SIGTERM, onTermination);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond ulimit -f is an error with a name, no silent end
-  const ros::NodeHandle alive;    // waits for a master
+  image::failAtFileLimit();
+  const ros::NodeHandle alive;  // waits for a master
   if (of_roslaunch) of_roslaunch->haveMaster();
   try {
     return node();
   } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
+    ROS_FATAL("%s", reasonInWords(error).c_str());
     return 1;
   }
 }

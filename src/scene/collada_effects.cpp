@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "scene/collada_tags.h"
@@ -14,29 +15,38 @@ std::string contentBehind(std::size_t at, const std::string& text) {
   return text.substr(at, std::min(text.find('<', at), text.size()) - at);
 }
 
-/// How the pictures of effects are meant, by their ids.
-std::map<std::string, OpacityPicture> transparencyOfEffects(const std::string& text) {
+/// One <effect>.
+struct Effect {
+  std::optional<OpacityPicture> picture = {};  ///< how that in <transparent> is meant
+  bool has_diffuse = false;
+  std::set<std::string> parameters = {};
+};
+
+/// By their ids.
+std::map<std::string, Effect> effectsById(const std::string& text) {
   struct {
     std::string effect, opaque, above;  // the latter: the last tag
     OpacityPicture picture;
   } now;
-  std::map<std::string, OpacityPicture> pictures;
+  std::map<std::string, Effect> effects;
   forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {
     if (name == "effect") now = {valueInTag(tag, "id"), {}, {}, {}};
+    Effect& effect = effects[now.effect];
+    if (now.above == "diffuse" && (name == "color" || name == "texture")) effect.has_diffuse = true;
+    if (name == "newparam") effect.parameters.insert(valueInTag(tag, "sid"));
     if (name == "transparent") now.opaque = valueInTag(tag, "opaque");
     if (name == "texture" && now.above == "transparent" && !now.opaque.empty() && now.opaque != "A_ONE") {
       now.picture.is_transparency = now.opaque != "RGB_ONE";
       now.picture.of_colors = now.opaque != "A_ZERO";
-      pictures.emplace(now.effect, now.picture);
+      if (!effect.picture) effect.picture = now.picture;
     }
     if (name == "float" && now.above == "transparency") {
       now.picture.share = std::strtof(contentBehind(at + tag.size(), text).c_str(), nullptr);
-      if (const auto known = pictures.find(now.effect); known != pictures.end())
-        known->second.share = now.picture.share;
+      if (effect.picture) effect.picture->share = now.picture.share;
     }
     now.above = name;
   });
-  return pictures;
+  return effects;
 }
 
 /// What stands in the place of a reference: an element that may stand there, whole. By effect and name.
@@ -65,15 +75,23 @@ Parameters parametersOf(const std::string& text) {
 
 }  // namespace
 
-std::map<std::string, OpacityPicture> transparencyOf(const std::string& text) {
-  const std::map<std::string, OpacityPicture> of_effects = transparencyOfEffects(text);
-  std::map<std::string, OpacityPicture> of_materials;
+ColladaEffects effectsOf(const std::string& text) {
+  const std::map<std::string, Effect> effects = effectsById(text);
+  ColladaEffects of_materials;
   std::string material;
+  auto found = effects.end();
   forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
     if (name == "material") material = valueInTag(tag, valueInTag(tag, "name").empty() ? "id" : "name");
-    if (name != "instance_effect") return;
-    const auto found = of_effects.find(withoutHash(valueInTag(tag, "url")));
-    if (found != of_effects.end()) of_materials.emplace(material, found->second);
+    if (name == "instance_effect") {
+      found = effects.find(withoutHash(valueInTag(tag, "url")));
+      if (found == effects.end()) return;
+      if (found->second.picture) of_materials.transparency.emplace(material, *found->second.picture);
+      if (!found->second.has_diffuse) of_materials.without_diffuse.insert(material);
+    }
+    // Others are of profiles that nobody reads.
+    if (name == "setparam" && found != effects.end() &&
+        found->second.parameters.count(valueInTag(tag, "ref")) == 1)
+      of_materials.set_apart.insert(material);
   });
   return of_materials;
 }

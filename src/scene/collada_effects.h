@@ -2,15 +2,23 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "scene/scene_builder.h"
 
 namespace sunlit::scene {
 
-/// How pictures in <transparent> are meant, without their files, by names of materials; not where the alpha
-/// of a picture is an opacity (A_ONE), as Assimp takes it for.
-std::map<std::string, OpacityPicture> transparencyOf(const std::string& text);
+/// By names of materials.
+struct ColladaEffects {
+  /// How pictures in <transparent> are meant, without their files; not where the alpha of a picture is an
+  /// opacity (A_ONE), as Assimp takes it for.
+  std::map<std::string, OpacityPicture> transparency;
+  std::set<std::string> without_diffuse;  ///< for whose colour Assimp has a grey of its own
+  std::set<std::string> set_apart;        ///< give parameters of their effects other values by <setparam>
+};
+/// `text` as withParameters() gives it.
+ColladaEffects effectsOf(const std::string& text);
 
 /// `text` in which the values of parameters stand in the place of each <param> that refers to them: Assimp
 /// 5.2 does not follow it. Lines stay where they are.

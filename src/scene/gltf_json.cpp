@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "scene/uri_text.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::scene {
 
@@ -25,7 +26,12 @@ std::string bytesOf(const std::string& file) {
 GltfParts gltfParts(const std::string& file) {
   std::string text = bytesOf(file);
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  if (text.compare(0, 4, "glTF") != 0 || text.size() < kHeader + kChunkHeader) return {std::move(text), ""};
+  if (text.compare(0, 4, "glTF") != 0 || text.size() < kHeader + kChunkHeader) {
+    const std::size_t size = text.size();
+    std::string plain = utf8Of(std::move(text), file);
+    const bool marked = plain.size() < size;
+    return {std::move(plain), "", false, marked};
+  }
   std::size_t length = 0;
   for (std::size_t i = 0; i < 4; ++i)
     length |= static_cast<std::size_t>(static_cast<std::uint8_t>(text[kHeader + i])) << (8 * i);

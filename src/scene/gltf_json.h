@@ -13,6 +13,7 @@ struct GltfParts {
   std::string json;
   std::string rest;     ///< the other chunks, each of 4 bytes for its length, 4 for its type, and its content
   bool binary = false;  ///< a .glb, whatever its name
+  bool marked = false;  ///< a byte order mark stood before it, as one may (glTF 2.0, section 3.2)
 };
 /// Throws as bytesOf().
 GltfParts gltfParts(const std::string& file);

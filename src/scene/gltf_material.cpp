@@ -41,11 +41,6 @@ void requireName(const GltfParts& parts, const std::string& file) {
         "its name must end in .gltf");
 }
 
-/// Readers may pass over a byte order mark (glTF 2.0, section 3.2).
-bool hasMark(const std::string& text) {
-  return text.compare(0, 3, "\xEF\xBB\xBF") == 0;
-}
-
 }  // namespace
 
 GltfMaterials::GltfMaterials(const std::string& file, SceneBuilder& builder)
@@ -65,7 +60,7 @@ GltfMaterials::GltfMaterials(const std::string& file, SceneBuilder& builder)
   } catch (const json::exception& error) {
     throw std::runtime_error(file + ": its accessors, meshes and skins: " + error.what());
   }
-  json_ = std::make_unique<const Json>(Json{std::move(root), mends.any() || hasMark(parts.json)});
+  json_ = std::make_unique<const Json>(Json{std::move(root), mends.any() || parts.marked});
 }
 
 GltfMaterials::~GltfMaterials() = default;

@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -32,6 +31,7 @@
 #include "scene/triangle_budget.h"
 #include "scene/uri_text.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::scene {
 namespace {
@@ -239,23 +239,31 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
   return looks;
 }
 
-/// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended; how its pictures of
-/// transparency are meant.
-std::map<std::string, OpacityPicture> readCollada(const std::string& file, Assimp::Importer& importer,
-                                                  SceneBuilder& builder) {
+/// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended.
+ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text = withCountedLines(
-      withoutAnimations({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}));
+  std::string text =
+      withCountedLines(withoutAnimations(utf8Of({std::istreambuf_iterator<char>(stream), {}}, file)));
   requireReadableCollada(text, file);
   text = withParameters(withKnownSets(text));
-  std::map<std::string, OpacityPicture> transparency = transparencyOf(text);
-  if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return transparency;
+  ColladaEffects effects = effectsOf(text);
+  for (const std::string& material : effects.set_apart)
+    builder.warn("materials set parameters of their effects by <setparam>, which is not read",
+                 material + " of " + file);
+  if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return effects;
   const ColladaText readable = readableCollada(text);
   const aiScene* const scene =
       importer.ReadFileFromMemory(readable.text.data(), readable.text.size(), 0, "dae");
   if (scene != nullptr && readable.holes > 0)
     builder.warn("meshes have polygons with holes, which are filled", file);
-  return transparency;
+  return effects;
+}
+
+/// Has Assimp read any file.
+ColladaEffects readInto(Assimp::Importer& importer, const std::string& file, SceneBuilder& builder) {
+  if (extensionOf(file) == ".dae") return readCollada(file, importer, builder);
+  importer.ReadFile(file, 0);
+  return {};
 }
 
 /// What of the parts is lost.
@@ -330,9 +338,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
     libraries = readLibraries(file, builder);
   }
   setUp(importer, up_axis);
-  std::map<std::string, OpacityPicture> transparency;
-  if (collada) transparency = readCollada(file, importer, builder);
-  if (!collada) importer.ReadFile(file, 0);
+  ColladaEffects effects = readInto(importer, file, builder);
   const aiScene* const scene = prepared(importer, gltf);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString() +
@@ -344,7 +350,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
       *scene,
       MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
                       gltf ? gltf_materials->order(namesOfMaterials(*scene)) : std::vector<std::size_t>(),
-                      std::move(libraries.files), std::move(libraries.materials), std::move(transparency)});
+                      std::move(libraries.files), std::move(libraries.materials), std::move(effects)});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
   const bool y_up = (gltf || collada) && up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();

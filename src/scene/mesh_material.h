@@ -3,12 +3,12 @@
 
 #include <assimp/scene.h>
 
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "scene/collada_effects.h"
 #include "scene/gltf_material.h"
 #include "scene/resource_finder.h"
 #include "scene/scene_builder.h"
@@ -24,8 +24,8 @@ struct MeshFileContext {
   std::vector<std::size_t> gltf_order = {};  ///< GltfMaterials::order() of a glTF file
   std::vector<std::string> libraries =
       {};  ///< of materials of an OBJ file, beside which pictures may be, too
-  std::set<std::string> obj_materials = {};                 ///< names of those that these libraries have
-  std::map<std::string, OpacityPicture> transparency = {};  ///< transparencyOf() of a COLLADA file
+  std::set<std::string> obj_materials = {};  ///< names of those that these libraries have
+  ColladaEffects effects = {};               ///< of a COLLADA file
 };
 
 /// A material in the builder, and the texture coordinates that it wants of its meshes.

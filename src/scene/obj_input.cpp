@@ -16,6 +16,7 @@
 #include "scene/mtl_text.h"
 #include "scene/obj_lines.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::scene {
 namespace {
@@ -23,17 +24,15 @@ namespace {
 std::string contentOf(const std::string& path) {
   image::requireNoDevice(path);
   std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return utf8Of({std::istreambuf_iterator<char>(stream), {}}, path);
 }
 
-void requireNoCommas(const std::string& path, const std::string& text) {
-  forEachObjLine(text, [&](const std::string& line, std::size_t number) {
-    const bool is_numbers =
-        line.compare(0, 2, "v ") == 0 || line.compare(0, 3, "vn ") == 0 || line.compare(0, 3, "vt ") == 0;
-    if (is_numbers && line.find(',') != std::string::npos && line.find(',') < line.find('#'))
-      throw std::runtime_error(path + ":" + std::to_string(number) + ": '" + line +
-                               "' has a comma; decimals stand behind a point");
-  });
+void requireNoComma(const std::string& line, std::size_t number, const std::string& file) {
+  const bool is_numbers =
+      line.compare(0, 2, "v ") == 0 || line.compare(0, 3, "vn ") == 0 || line.compare(0, 3, "vt ") == 0;
+  if (is_numbers && line.find(',') != std::string::npos && line.find(',') < line.find('#'))
+    throw std::runtime_error(file + ":" + std::to_string(number) + ": '" + line +
+                             "' has a comma; decimals stand behind a point");
 }
 
 /// How many words a line of a vertex has behind its first one; 0 of other lines, and of one that goes on in
@@ -94,9 +93,20 @@ std::string withLeadingZeros(const std::string& line) {
   return mended;
 }
 
+/// What `mtllib` names: one library, or several where no file has the whole name.
+std::vector<std::string> librariesIn(const std::string& names, const std::string& file) {
+  if (names.empty()) return {};  // as of nearly all lines, of which each would be looked for
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  const auto isThere = [&](const std::string& name) { return std::filesystem::exists(folder / name); };
+  const std::vector<std::string> words = wordsOfLine(names);
+  if (!isThere(names) && std::any_of(words.begin(), words.end(), isThere)) return words;
+  return {names};
+}
+
 /// Vertices and faces as Assimp 5.2 reads them: it stops at comments behind faces, counts words of comments
-/// that begin as numbers do, does not count numbers that begin with a point, and wants two of `vt`.
-std::string withPlainLines(const std::string& text) {
+/// that begin as numbers do, does not count numbers that begin with a point, and wants two of `vt`. Each
+/// library on a line of its own.
+std::string withPlainLines(const std::string& text, const std::string& file) {
   static const std::set<std::string> numbers = {"v", "vn", "vt"}, indices = {"f", "l", "p"};
   std::string plain;
   std::string first;     // word of the line
@@ -109,35 +119,13 @@ std::string withPlainLines(const std::string& text) {
     const std::size_t last = mended.find_last_not_of(" \t");
     goes_on = last != std::string::npos && mended[last] == '\\';
     if (first == "vt" && is_whole && !goes_on && wordsOfLine(mended).size() == 2) mended += " 0";
+    const std::vector<std::string> libraries = librariesIn(behindWord("mtllib", line), file);
+    if (libraries.size() > 1) mended.clear();
+    for (std::size_t i = 0; libraries.size() > 1 && i < libraries.size(); ++i)
+      mended += (i == 0 ? "mtllib " : "\nmtllib ") + libraries[i];
     plain += mended + '\n';
   });
   return plain;
-}
-
-/// What `mtllib` names: one library, or several where no file has the whole name.
-std::vector<std::string> librariesIn(const std::string& names, const std::string& file) {
-  if (names.empty()) return {};  // as of nearly all lines, of which each would be looked for
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  const auto isThere = [&](const std::string& name) { return std::filesystem::exists(folder / name); };
-  const std::vector<std::string> words = wordsOfLine(names);
-  if (!isThere(names) && std::any_of(words.begin(), words.end(), isThere)) return words;
-  return {names};
-}
-
-/// Each library on a line of its own.
-std::string withLoneLibraries(const std::string& text, const std::string& file) {
-  std::string parted;
-  forEachObjLine(text, [&](const std::string& line, std::size_t) {
-    const std::vector<std::string> libraries = librariesIn(behindWord("mtllib", line), file);
-    if (libraries.size() < 2) parted += line + '\n';
-    for (std::size_t i = 0; libraries.size() > 1 && i < libraries.size(); ++i)
-      parted += "mtllib " + libraries[i] + '\n';
-  });
-  return parted;
-}
-
-std::string withoutMark(const std::string& text) {
-  return text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? text.substr(3) : text;
 }
 
 /// Whether it is there; else the one that Assimp then looks for is added.
@@ -146,7 +134,7 @@ bool addLibrary(const std::filesystem::path& object, const std::string& name, Ob
   const bool is_there = std::filesystem::exists(library);
   if (!is_there) library = std::filesystem::path(object).replace_extension("mtl");
   libraries.files.push_back(library.string());
-  const MtlContent content = contentOfMtl(withoutMark(contentOf(library.string())), library.string());
+  const MtlContent content = contentOfMtl(contentOf(library.string()), library.string());
   libraries.materials.insert(content.materials.begin(), content.materials.end());
   libraries.not_rendered.insert(libraries.not_rendered.end(), content.not_rendered.begin(),
                                 content.not_rendered.end());
@@ -158,10 +146,9 @@ bool addLibrary(const std::filesystem::path& object, const std::string& name, Ob
 
 Assimp::IOStream* ObjInput::Open(const char* path, const char* mode) {
   if (!Exists(path)) return DefaultIOSystem::Open(path, mode);
-  const std::string text = withoutMark(contentOf(path));
-  if (extensionOf(path) == ".obj")
-    return streamOf(withColorsOfAll(withLoneLibraries(withPlainLines(text), path)));
-  return streamOf(readableMtl(text, path));
+  const std::string text = contentOf(path);
+  const bool is_object = extensionOf(path) == ".obj";
+  return streamOf(is_object ? withColorsOfAll(withPlainLines(text, path)) : readableMtl(text, path));
 }
 
 ObjLibraries librariesOfObj(const std::string& file) {
@@ -169,9 +156,8 @@ ObjLibraries librariesOfObj(const std::string& file) {
   std::string missing;
   ObjLibraries libraries;
   const std::filesystem::path path(file);
-  const std::string object = withoutMark(contentOf(file));
-  requireNoCommas(file, object);
-  forEachObjLine(object, [&](const std::string& line, std::size_t) {
+  forEachObjLine(contentOf(file), [&](const std::string& line, std::size_t number) {
+    requireNoComma(line, number, file);
     if (const std::string material = behindWord("usemtl", line); !material.empty()) used.insert(material);
     for (const std::string& name : librariesIn(behindWord("mtllib", line), file)) {
       if (!addLibrary(path, name, libraries)) missing += (missing.empty() ? "" : ", ") + name;

@@ -100,11 +100,23 @@ bool isUnlit(const aiMaterial& source) {
   return shading == aiShadingMode_NoShading;
 }
 
-/// That is the colour of those; some files write a diffuse one, which counts where there is no emission.
-bool isColoredByEmission(const aiMaterial& source) {
+bool hasEmission(const aiMaterial& source) {
   aiColor4D emission(0.0f, 0.0f, 0.0f, 1.0f);
   source.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
-  return isUnlit(source) && (!emission.IsBlack() || !pictureOf(source, aiTextureType_EMISSIVE).empty());
+  return !emission.IsBlack() || !pictureOf(source, aiTextureType_EMISSIVE).empty();
+}
+
+/// That is the colour of those; some files write a diffuse one, which counts where there is no emission.
+bool isColoredByEmission(const aiMaterial& source) {
+  return isUnlit(source) && hasEmission(source);
+}
+
+/// Of COLLADA, where Assimp has a grey of its own; another material may be called alike.
+bool lacksDiffuse(const aiMaterial& source, const MeshFileContext& context) {
+  aiColor4D color;
+  source.Get(AI_MATKEY_COLOR_DIFFUSE, color);
+  return context.effects.without_diffuse.count(nameOf(source)) == 1 &&
+         color == aiColor4D(0.6f, 0.6f, 0.6f, 1.0f) && pictureOf(source, aiTextureType_DIFFUSE).empty();
 }
 
 bool hasColors(const aiScene& scene) {
@@ -127,8 +139,7 @@ class PhongReader {
   MeshLook read() {
     readColors();
     readColorMaps();
-    if (isInvented(source_, context_))
-      material_.base_color = hasColors(scene_) ? LinearRgb(1.0f, 1.0f, 1.0f) : kNeutral;
+    replaceInvented();
     material_.base_color.value = material_.base_color.value.max(0.0f).min(1.0f);
     readMaps();
     const float opacity = transparency() != nullptr ? 1.0f : opacityOf(source_);
@@ -172,6 +183,17 @@ class PhongReader {
     if (shines) material_.roughness = roughnessOfPhong(shininess);
   }
 
+  /// What stands for a colour of Assimp's own. COLLADA 1.4 adds up the terms that an effect has: of one that
+  /// shines, but scatters nothing, that is black. Others are as meshes without a material.
+  void replaceInvented() {
+    const bool lacks = !by_emission_ && lacksDiffuse(source_, context_);
+    if (!lacks && !isInvented(source_, context_)) return;
+    const bool is_black = lacks && hasEmission(source_);
+    material_.base_color = hasColors(scene_) ? LinearRgb(1.0f, 1.0f, 1.0f)
+                           : is_black        ? LinearRgb(0.0f, 0.0f, 0.0f)
+                                             : kNeutral;
+  }
+
   /// The texture of that type; kNone if there is none, or it is missing.
   int addTexture(aiTextureType type) {
     const std::string name = pictureOf(source_, type);
@@ -190,8 +212,8 @@ class PhongReader {
 
   /// How its picture of transparency is meant, where that is no opacity; null elsewhere.
   const OpacityPicture* transparency() const {
-    const auto found = context_.transparency.find(material_.name);
-    return found == context_.transparency.end() ? nullptr : &found->second;
+    const auto found = context_.effects.transparency.find(material_.name);
+    return found == context_.effects.transparency.end() ? nullptr : &found->second;
   }
 
   /// A picture of opacity, if that is another than the one of colour.

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "sunlit/quantity/utf8.h"
+
 namespace sunlit::scene {
 namespace {
 
@@ -94,7 +96,7 @@ const std::string& MaterialScripts::textOf(const std::string& file) {
   const auto [place, is_new] = texts_.try_emplace(file);
   if (is_new) {
     std::ifstream stream(file, std::ios::binary);
-    place->second.assign(std::istreambuf_iterator<char>(stream), {});
+    place->second = utf8Of({std::istreambuf_iterator<char>(stream), {}}, file);
   }
   return place->second;
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::scene {
 namespace {
@@ -47,7 +48,7 @@ std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file) {
   image::requireNoDevice(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(file + ": cannot open this file");
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string text = utf8Of({std::istreambuf_iterator<char>(stream), {}}, file);
   dropLateDeclaration(&text);
   auto document = std::make_unique<tinyxml2::XMLDocument>();
   if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {

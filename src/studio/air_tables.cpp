@@ -8,6 +8,7 @@
 
 #include "studio/sealed_files.h"
 #include "studio/tell.h"
+#include "sunlit/quantity/memory.h"
 
 namespace sunlit::studio {
 namespace {
@@ -37,7 +38,7 @@ sky::TableStore airTablesIn(const std::filesystem::path& folder, const Reports& 
           name, [&](const SealedFiles::Sink& sink) { sink(numbers.data(), numbers.size() * sizeof(float)); });
       files->tidy(warn);
     } catch (const std::exception& problem) {
-      warn(std::string("tables of the air are not kept: ") + problem.what());
+      warn("tables of the air are not kept: " + reasonInWords(problem));
     }
   };
   return store;

@@ -7,6 +7,7 @@
 #include "studio/tell.h"
 #include "studio/top_down.h"
 #include "sunlit/quantity/frames.h"
+#include "sunlit/quantity/memory.h"
 
 namespace sunlit::studio {
 
@@ -66,6 +67,12 @@ Motion carried(const Motion& motion, const Eigen::Vector3d& away) {
   return {motion.velocity_m_s + motion.turning_rad_s.cross(away), motion.turning_rad_s};
 }
 
+/// For inMemory().
+std::string pictureOf(const StudioOptions& options) {
+  const image::PinholeCamera& camera = options.render.camera;
+  return "a picture of " + std::to_string(camera.width) + "x" + std::to_string(camera.height) + " px";
+}
+
 }  // namespace
 
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
@@ -88,8 +95,10 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
     world.transport =
         stopwatch_.measure("load", "transport", [&] { return bake(world, options.bake, reports); });
   }
-  stopwatch_.measure("load", "renderer", [&] { camera_->enter(worlds_); });
-  if (right_) stopwatch_.measure("load", "right", [&] { right_->enterBeside(*camera_); });
+  inMemory(pictureOf(options_), [&] {
+    stopwatch_.measure("load", "renderer", [&] { camera_->enter(worlds_); });
+    if (right_) stopwatch_.measure("load", "right", [&] { right_->enterBeside(*camera_); });
+  });
 }
 
 Studio::~Studio() = default;
@@ -149,8 +158,10 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
 
 void Studio::lookByLeft(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links,
                         const Motion& motion) {
-  stopwatch_.measure("geometry", "pose",
-                     [&] { camera_->look(map_from_camera * linkFromOptical(), map_from_links, motion); });
+  inMemory(pictureOf(options_), [&] {
+    stopwatch_.measure("geometry", "pose",
+                       [&] { camera_->look(map_from_camera * linkFromOptical(), map_from_links, motion); });
+  });
 }
 
 void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links,
@@ -181,7 +192,9 @@ light::Illumination Studio::illumination(const sky::Daylight& daylight, std::siz
 
 Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name,
                              const Setting& setting) {
-  return camera_->photograph({light, name, setting}, std::nullopt, &stopwatch_);
+  return inMemory(pictureOf(options_), [&] {
+    return camera_->photograph({light, name, setting}, std::nullopt, &stopwatch_);
+  });
 }
 
 double Studio::meter(const light::Illumination& light, const image::PictureName& name,

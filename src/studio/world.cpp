@@ -10,6 +10,7 @@
 #include "studio/tell.h"
 #include "sunlit/image/cache_folder.h"
 #include "sunlit/light/lamps.h"
+#include "sunlit/quantity/memory.h"
 
 namespace sunlit::studio {
 namespace {
@@ -20,6 +21,27 @@ void tellOf(const WorldOptions& options, const scene::Scene& scene, std::size_t 
   tell(reports.note, "World " + options.name + ": " + std::to_string(triangles) + " triangles, " +
                          std::to_string(scene.textures.size()) + " textures, " +
                          std::to_string(scene.lamps.size()) + " lamps");
+}
+
+/// For inMemory().
+std::string loading(const WorldOptions& options) {
+  return "loading the world " + options.name;
+}
+
+light::World flatWorld(const WorldOptions& options, const std::string& cache_folder,
+                       const std::optional<scene::Robot>& robot, const Reports& reports) {
+  scene::FlatScene flat = options.name == scene::kRaceTrack
+                              ? keptRaceTrack(cache_folder, reports)
+                              : scene::flattened(scene::load(options.name, options.searchPath()));
+  tellOf(options, flat.scene, flat.shape.triangles.size(), reports);
+  const auto scene = std::make_shared<scene::Scene>(std::move(flat.scene));
+  std::vector<std::vector<scene::Mesh>> meshes_of_links;
+  if (robot) meshes_of_links = scene::addLooks(*robot, scene.get());
+  light::World world(scene, std::make_shared<const scene::Shape>(std::move(flat.shape)), meshes_of_links);
+  if (robot) {
+    for (const scene::RobotLink& link : robot->links) world.lamps_of_bodies.push_back(link.lamps);
+  }
+  return world;
 }
 
 }  // namespace
@@ -35,25 +57,15 @@ std::string requireWorld(const WorldOptions& options) {
 }
 
 scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
-  scene::Scene scene = scene::load(options.name, options.searchPath());
+  scene::Scene scene =
+      inMemory(loading(options), [&] { return scene::load(options.name, options.searchPath()); });
   tellOf(options, scene, scene.triangleCount(), reports);
   return scene;
 }
 
 light::World loadWorld(const WorldOptions& options, const std::string& cache_folder,
                        const std::optional<scene::Robot>& robot, const Reports& reports) {
-  scene::FlatScene flat = options.name == scene::kRaceTrack
-                              ? keptRaceTrack(cache_folder, reports)
-                              : scene::flattened(scene::load(options.name, options.searchPath()));
-  tellOf(options, flat.scene, flat.shape.triangles.size(), reports);
-  const auto scene = std::make_shared<scene::Scene>(std::move(flat.scene));
-  std::vector<std::vector<scene::Mesh>> meshes_of_links;
-  if (robot) meshes_of_links = scene::addLooks(*robot, scene.get());
-  light::World world(scene, std::make_shared<const scene::Shape>(std::move(flat.shape)), meshes_of_links);
-  if (robot) {
-    for (const scene::RobotLink& link : robot->links) world.lamps_of_bodies.push_back(link.lamps);
-  }
-  return world;
+  return inMemory(loading(options), [&] { return flatWorld(options, cache_folder, robot, reports); });
 }
 
 void requireGroups(const light::World& world, const light::LampOptions& lamps, const Reports& reports) {
@@ -89,8 +101,10 @@ std::shared_ptr<const light::Transport> bake(const light::World& world, const Ba
                                              const Reports& reports) {
   if (!options.enabled) return nullptr;
   const light::BakeCache cache = cacheOf(options);
-  auto transport = light::Transport::cached(world.geometry, options.transport, cache,
-                                            {reports.baking, reports.warning, reports.note, reports.check});
+  auto transport = inMemory("baking the light of a world", [&] {
+    return light::Transport::cached(world.geometry, options.transport, cache,
+                                    {reports.baking, reports.warning, reports.note, reports.check});
+  });
   tell(reports.note, "Sky light and bounced light at " + std::to_string(transport->sampleCount()) +
                          " samples, kept in " + cache.folder);
   return transport;

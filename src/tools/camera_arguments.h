@@ -43,7 +43,7 @@ inline std::vector<Field> fieldsOf(TypedPose& pose) {
           {"y", &pose.y, "m", {}, ""},
           {"z", &pose.z, "m", {}, ""},
           {"yaw", &pose.yaw_deg, "deg", {}, "counter-clockwise from east"},
-          {"pitch", &pose.pitch_deg, "deg", {}, "up is positive"}};
+          {"pitch", &pose.pitch_deg, "deg", {-90, 90}, "up is positive"}};
 }
 
 /// Of a camera (x forward, y left, z up) at `eye`, m; yaw counter-clockwise from east, pitch up is positive.

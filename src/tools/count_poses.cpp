@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sunlit/path/path.h"
+#include "sunlit/quantity/memory.h"
 #include "sunlit/scene/load.h"
 #include "sunlit/scene/race_track.h"
 #include "sunlit/studio/command_line.h"
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
     std::cout << countPoses({argv + 1, argv + argc}) << '\n';
     return 0;
   } catch (const std::exception& error) {
-    std::cerr << "sunlit: " << error.what() << '\n';
+    std::cerr << "sunlit: " << reasonInWords(error) << '\n';
     return 1;
   }
 }

@@ -139,12 +139,33 @@ class Timelapse(unittest.TestCase):
         for ending in ("mp4", "avi", "mkv"):
             film = pathlib.Path(self.path("film." + ending))
             film.write_bytes(b"old")
-            done = run("timelapse", "--out", self.path("a"), *VIEW, *DAY, "--video", str(film), preexec_fn=little_room,
-                       restore_signals=False)  # SIGXFSZ stays ignored: writing fails as on a full disk
+            done = run("timelapse", "--out", self.path("a"), *VIEW, *DAY, "--video", str(film), preexec_fn=little_room)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn("%s: cannot be written: of 4 frames only " % film, done.stderr)
             self.assertEqual(film.read_bytes(), b"old")
             self.assertEqual([name for name in os.listdir(self.folder) if "part" in name], [])
+
+    def test_a_picture_beyond_the_limit_of_files_is_an_error_with_a_name_and_leaves_nothing(self):
+        picture = self.path("view.png")
+        done = run("snapshot", "--out", picture, *VIEW,
+                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300)))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("snapshot: %s: " % picture, done.stderr)
+        self.assertIn("raise the limit (ulimit -f)", done.stderr)
+        self.assertEqual([name for name in os.listdir(self.folder) if name != "a"], [])
+
+    def test_memory_that_ends_is_told_by_what_was_made_then(self):
+        def limited(megabytes):
+            return lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+
+        least = next(size for size in range(256, 1 << 16, 64)
+                     if run("snapshot", "--help", preexec_fn=limited(size)).returncode == 0)
+        for size in (least + 64, least + 256):
+            done = run("snapshot", "--out", self.path("view.png"), "--size", "96x64", "--bounced", "off",
+                       preexec_fn=limited(size), env={**os.environ, "SUNLIT_CACHE_DIR": self.folder})
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("snapshot: not enough memory: loading the world race_track", done.stderr)
+            self.assertNotIn("bad_alloc", done.stderr)
 
     def test_writes_films_and_a_sheet(self):
         for ending in ("mp4", "avi", "mkv"):

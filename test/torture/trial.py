@@ -24,7 +24,7 @@ CACHED = (".light", ".features", ".air")
 # Part of a command line -> who that is. The first that fits counts.
 PARTS = (("sunlit_experiment.guard", "guard"), ("experiment_node", "experiment"), ("sun_position_node", "sun_position"),
          ("__name:=recorder", "recorder"), ("scripts/report", "report"), ("evaluator_node", "evaluator"),
-         ("rosmaster", "master"), ("rosout", "rosout"), ("experiment_parameters", "plan"), ("count_poses", "plan"),
+         ("rosmaster", "master"), ("rosout", "rosout"), ("experiment_parameters", "plan"), ("count_poses", "plan"), ("check_parameters", "plan"),
          ("render_node", "render"), ("roslaunch", "roslaunch"))
 
 

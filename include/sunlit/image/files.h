@@ -11,6 +11,10 @@ namespace sunlit::image {
 /// What the system says of `error`, an errno; of a full disk, quota or limit also what to do.
 std::string reasonOf(int error);
 
+/// From here on a file beyond its limit (ulimit -f) is an error that reasonOf() tells, where the system would
+/// end the process without a word (SIGXFSZ).
+void failAtFileLimit();
+
 /// Writes `bytes` beside `path` under another name, makes them durable (fsync), then renames. The folder must
 /// exist.
 void writeFileAtomically(const std::string& path, const std::string& bytes);

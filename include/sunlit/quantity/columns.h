@@ -6,8 +6,7 @@
 
 namespace sunlit {
 
-/// Without blanks, tabs and carriage returns at both ends, and without the byte order mark that some editors
-/// put at the start.
+/// Without blanks, tabs and carriage returns at both ends.
 std::string trimmed(const std::string& text);
 
 /// Each trimmed; one more than there are commas.

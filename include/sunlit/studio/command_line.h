@@ -13,7 +13,9 @@
 #include <variant>
 #include <vector>
 
+#include "sunlit/image/files.h"
 #include "sunlit/quantity/field.h"
+#include "sunlit/quantity/memory.h"
 
 namespace sunlit::studio {
 
@@ -116,6 +118,7 @@ struct Called {
 /// program's name, for what `parse` or `run` throws.
 template <typename Parse, typename Run>
 int runProgram(const Called& called, const Parse& parse, const Run& run) {
+  image::failAtFileLimit();
   try {
     const auto options = parse(std::vector<std::string>(called.argv + 1, called.argv + called.argc));
     if (!options) return 0;
@@ -126,7 +129,7 @@ int runProgram(const Called& called, const Parse& parse, const Run& run) {
       return run(*options);
     }
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", called.name, error.what());
+    std::fprintf(stderr, "%s: %s\n", called.name, reasonInWords(error).c_str());
     return 1;
   }
 }

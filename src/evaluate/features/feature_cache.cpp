@@ -16,6 +16,7 @@
 
 #include "sunlit/image/content_hash.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/memory.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -200,7 +201,7 @@ std::optional<Features> FeatureCache::find(const std::string& key) {
     ++found_;
     return features;
   } catch (const std::exception& problem) {
-    if (fs::exists(file, error)) sayUnreadable(problem.what());
+    if (fs::exists(file, error)) sayUnreadable(reasonInWords(problem));
     return std::nullopt;
   }
 }
@@ -214,7 +215,7 @@ void FeatureCache::keep(const std::string& key, const Features& features) {
     const std::optional<image::CacheTurn> turn = image::CacheTurn::ifFree(file);
     if (turn) write(file, bytes);  // otherwise somebody keeps the same just now
   } catch (const std::exception& problem) {
-    stopKeeping(problem.what());
+    stopKeeping(reasonInWords(problem));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sunlit/evaluate/localise/localisation.h"
+#include "sunlit/quantity/memory.h"
 
 namespace sunlit::evaluate {
 
@@ -22,7 +23,7 @@ DetectorFaults forEachDetector(const std::vector<PosedView>& views, const std::v
     try {
       work(task / detectors.size(), detector);
     } catch (const std::exception& error) {
-      thrown[task] = detectors[detector] + ": " + error.what();
+      thrown[task] = detectors[detector] + ": " + reasonInWords(error);
     }
   });
   DetectorFaults faults;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "evaluate/run/evaluation_state.h"
+#include "sunlit/quantity/memory.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -16,7 +17,7 @@ std::optional<std::string> faultOf(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const std::exception& error) {
-    return error.what();
+    return reasonInWords(error);
   }
 }
 
@@ -88,7 +89,7 @@ void Evaluation::State::evaluatePairs(const Work& work) {
       values = compare(work);
     } catch (const Stopped&) {  // keepAll() will see it
     } catch (const std::exception& error) {
-      values.faults.assign(work.pairs.size(), error.what());
+      values.faults.assign(work.pairs.size(), reasonInWords(error));
     }
   };
   const auto write = [&] {

@@ -22,6 +22,8 @@
 namespace sunlit::evaluate {
 namespace {
 
+const std::string kAbout = "about/";  ///< stands before the keys of EvaluationOptions::about
+
 // A key of about may be any text.
 std::string keyText(const std::string& key) {
   const bool is_plain = std::all_of(key.begin(), key.end(), [](unsigned char c) {
@@ -128,7 +130,7 @@ Settings settingsOf(const EvaluationOptions& options) {
   Settings settings;
   EvaluationOptions present = options;
   for (const Field& field : decidingFieldsOf(present)) settings.emplace_back(field.key, field.text());
-  for (const auto& item : options.about) settings.emplace_back("about/" + item.first, item.second);
+  for (const auto& item : options.about) settings.emplace_back(kAbout + item.first, item.second);
   return settings;
 }
 
@@ -150,11 +152,16 @@ void requireSameSettings(const std::string& path, const Settings& settings) {
                                 "; choose another output_dir, or the setting that it was made with");
   };
   std::map<std::string, std::string> current(settings.begin(), settings.end());
-  for (const auto& item : settings) {
-    const auto found = old_settings.find(item.first);
-    if (found == old_settings.end()) refuse(item.first, "not given", item.second);
-    if (!areTheSame(found->second, item.second)) refuse(item.first, found->second, item.second);
-  }
+  const auto compare = [&](bool about) {
+    for (const auto& item : settings) {
+      if ((item.first.rfind(kAbout, 0) == 0) != about) continue;
+      const auto found = old_settings.find(item.first);
+      if (found == old_settings.end()) refuse(item.first, "not given", item.second);
+      if (!areTheSame(found->second, item.second)) refuse(item.first, found->second, item.second);
+    }
+  };
+  compare(true);  // what a person typed first: other settings may follow from it
+  compare(false);
   for (const auto& item : old_settings) {
     if (current.count(item.first) == 0) refuse(item.first, item.second, "not given");
   }

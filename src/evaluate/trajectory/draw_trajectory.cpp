@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <opencv2/imgproc.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -207,8 +210,9 @@ void drawPlot(const Errors& errors, Sheet* sheet) {
 
 MapPicture readMapPicture(const std::string& folder) {
   const std::string file = folder + "/map.yaml";
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file + ": cannot be opened: " + std::strerror(errno));
+  std::ifstream read(file);
+  if (!read) throw std::runtime_error(file + ": cannot be opened: " + std::strerror(errno));
+  std::istringstream stream(utf8Of({std::istreambuf_iterator<char>(read), {}}, file));
   std::map<std::string, double> extent;
   std::string key;
   for (double value = 0.0; stream >> key >> value;) extent[key] = value;

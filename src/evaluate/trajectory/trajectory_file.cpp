@@ -9,12 +9,14 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "evaluate/files/files.h"
 #include "sunlit/evaluate/trajectory/trajectory.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/columns.h"
 #include "sunlit/quantity/range.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -102,7 +104,7 @@ class Reader {
     std::ifstream stream(file_);
     if (!stream) throw std::runtime_error(file_ + ": cannot be opened: " + std::strerror(errno));
     for (std::string line; std::getline(stream, line);) {
-      ++line_number_;
+      if (++line_number_ == 1) line = utf8Of(std::move(line), file_);
       const std::size_t comment = std::min(line.find('#'), line.size());
       if (columns_ == 0 && line.find("q_RS_w", comment) != std::string::npos) form_ = &kEuroc;
       line = trimmed(line.substr(0, comment));

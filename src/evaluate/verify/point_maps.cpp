@@ -6,9 +6,11 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "evaluate/files/files.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -70,7 +72,7 @@ Eigen::Matrix3d readHomography(const std::string& path) {
   int rows = 0;
   int number = 0;
   for (std::string line; std::getline(file, line);) {
-    ++number;
+    if (++number == 1) line = utf8Of(std::move(line), path);
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     try {
       if (rows == 3) throw std::runtime_error(std::string("a fourth line; ") + kForm);

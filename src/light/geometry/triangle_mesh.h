@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -24,6 +25,12 @@ struct ReleaseScene {
 using DevicePointer = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
 using ScenePointer = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
+/// Throws OutOfMemory, or std::runtime_error, where there can be none.
+DevicePointer newDevice();
+
+/// What is being made of so many triangles, for requireFine().
+std::string treeOf(std::size_t triangles);
+
 /// A mesh of Embree, not yet committed; whoever makes it releases it.
 struct TriangleMesh {
   RTCGeometry handle = nullptr;
@@ -31,7 +38,7 @@ struct TriangleMesh {
   std::array<std::uint32_t, 3>* triangles = nullptr;  ///< to be filled: three indices into `vertices` each
 };
 
-/// Throws std::runtime_error where memory runs out.
+/// Throws OutOfMemory.
 TriangleMesh newTriangleMesh(RTCDevice device, std::size_t vertices, std::size_t triangles);
 /// The triangles `chosen` of `geometry`, in their order, not yet committed; whoever makes it releases it.
 /// Their vertices are those of `geometry`, which must outlive all that it is attached to. Throws as above.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "light/geometry/cutout.h"
+#include "light/geometry/embree_fault.h"
 #include "light/geometry/triangle_mesh.h"
 #include "light/geometry/veil_scene.h"
 
@@ -142,13 +143,7 @@ class Visibility::Implementation {
 };
 
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry)
-    : geometry_(std::move(geometry)),
-      cutouts_(*geometry_, Cutouts::Veils::kLeftOut),
-      device_(rtcNewDevice(nullptr)) {
-  if (!device_) {
-    throw std::runtime_error("ray library (Embree): no device, error code " +
-                             std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))));
-  }
+    : geometry_(std::move(geometry)), cutouts_(*geometry_, Cutouts::Veils::kLeftOut), device_(newDevice()) {
   wide_ = rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   build(RTC_BUILD_QUALITY_HIGH);
 }
@@ -174,11 +169,7 @@ void Visibility::Implementation::build(RTCBuildQuality quality) {
   veils_ = std::make_unique<VeilScene>(*geometry_, device_.get());
   buildBlends(quality);
   rtcCommitScene(scene_.get());
-  const RTCError error = rtcGetDeviceError(device_.get());
-  if (error != RTC_ERROR_NONE) {
-    throw std::runtime_error("ray library (Embree): cannot build the scene, error code " +
-                             std::to_string(static_cast<int>(error)));
-  }
+  requireFine(device_.get(), treeOf(geometry_->triangles.size()));
 }
 
 void Visibility::Implementation::buildBlends(RTCBuildQuality quality) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ros/evaluator/evaluator_options.h"
+#include "sunlit/quantity/utf8.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -77,7 +78,7 @@ int secondDocument(const std::string& text) {
 ParameterReader parametersOfFile(const std::string& path, XmlRpcValue usual) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be opened");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = utf8Of({std::istreambuf_iterator<char>(file), {}}, path);
   const auto fail = [&](int line, const std::string& reason) {
     throw std::runtime_error(path + ":" + std::to_string(std::max(line, 0) + 1) +
                              ": is not a YAML map of parameters: " + reason);

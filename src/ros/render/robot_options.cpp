@@ -4,7 +4,6 @@
 #include <ros/names.h>
 #include <ros/param.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace sunlit::ros_interface {
@@ -12,10 +11,13 @@ namespace sunlit::ros_interface {
 namespace {
 
 constexpr const char* kAuto = "auto";
+/// m; no robot is so large, and degrees in the place of metres mostly are beyond it.
+const Range kCameraInBase{-50, 50};
 
 [[noreturn]] void rejectCamera(const ParameterReader& parameters) {
   throw std::invalid_argument("parameter " + parameters.fullName("robot/camera_in_base") +
-                              " must be auto, the name of a link, or three numbers, m: [x, y, z]");
+                              " must be auto, the name of a link, or three numbers " + kCameraInBase.words() +
+                              " m: [x, y, z]");
 }
 
 void readCamera(const ParameterReader& parameters, RobotOptions* robot) {
@@ -34,7 +36,7 @@ void readCamera(const ParameterReader& parameters, RobotOptions* robot) {
     const bool whole = value[i].getType() == XmlRpcValue::TypeInt;
     if (!whole && value[i].getType() != XmlRpcValue::TypeDouble) rejectCamera(parameters);
     place[i] = whole ? static_cast<int>(value[i]) : static_cast<double>(value[i]);
-    if (!std::isfinite(place[i])) rejectCamera(parameters);
+    if (!kCameraInBase.contains(place[i])) rejectCamera(parameters);
   }
   robot->camera_in_base = place;
 }
@@ -67,7 +69,11 @@ std::vector<Field> fieldsOf(RobotOptions& robot) {
            "name of a parameter that holds a URDF, such as /robot_description"},
           {"file", &robot.file, "", {}, "or a file: .urdf or .sdf"},
           {"base_frame", &robot.base_frame, "", {}, "the link that is placed; empty: the root"},
-          {"camera_in_base", OwnForm{kAuto}, "", {}, "on a path: [x, y, z] in m, or the name of a link"},
+          {"camera_in_base",
+           OwnForm{kAuto},
+           "",
+           {},
+           "on a path: [x, y, z] in m, each from -50 to 50, or the name of a link"},
           {"joints",
            choiceOf(&robot.joints, {kAuto, "rest", "tf"}),
            "",

@@ -9,6 +9,7 @@
 #include "scene/resource_finder.h"
 #include "scene/robot/sdf_robot.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/utf8.h"
 #include "sunlit/scene/material_maps.h"
 
 namespace sunlit::scene {
@@ -52,7 +53,7 @@ Robot loadRobot(const std::string& file, const SearchPath& search_path) {
   if (extension == ".urdf" || extension == ".xml") {
     std::ifstream stream(*found.file, std::ios::binary);
     if (!stream) throw std::runtime_error(*found.file + ": cannot open this file");
-    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    const std::string text = utf8Of({std::istreambuf_iterator<char>(stream), {}}, *found.file);
     return parseUrdf(text, *found.file, search_path);
   }
   if (extension == ".xacro") {

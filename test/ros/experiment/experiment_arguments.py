@@ -106,7 +106,7 @@ class ExperimentArguments(unittest.TestCase):
         """What roslaunch does to have a file `plan`."""
         launch_file = os.path.join(SOURCE, "launch", "experiment.launch")
         texts = {arg.get("name"): arg.get("default") for arg in ElementTree.parse(launch_file).iter("arg") if "default" in arg.attrib}
-        return [os.path.join(SOURCE, "scripts", "experiment_parameters"), "plan", plan, launch_file, counter,
+        return [os.path.join(SOURCE, "scripts", "experiment_parameters"), "plan", plan, launch_file, counter, located("check_parameters"),
                 *("%s:=%s" % item for item in dict(texts, **typed).items())]
 
     def refused_plan(self, plan, **typed):
@@ -121,6 +121,19 @@ class ExperimentArguments(unittest.TestCase):
                                   ("world", "/nowhere.world", "there is no world /nowhere.world")):
             with tempfile.TemporaryDirectory() as folder:
                 said = self.refused_plan(os.path.join(folder, "plan"), **{"output": folder, name: text})
+                self.assertEqual(os.listdir(folder), [])
+                self.assertIn("sunlit: ", said)
+                self.assertIn(words, said)
+
+    def test_what_nodes_would_refuse_is_refused_before_they_start(self):
+        """Those ranges stand in the rows of the nodes alone."""
+        for typed, words in (({"glare": "0.5"}, "parameter /render/glare/share is 0.5, but must be from 0 to 0.2"),
+                             ({"turbidity": "11"}, "parameter /render/atmosphere/turbidity is 11, but must be from 1 to 10"),
+                             ({"site": "[91, 0, 0]"}, "parameter /sun_position/site/latitude is 91, but must be from -90 to 90 deg"),
+                             ({"conditions": "{a: {hour: 4}, b: {hour: 12, cover: 9}}"}, "cover is 9, but must be from 0 to 8 oktas"),
+                             ({"features": "{orb: {n_levels: 0}}"}, "parameter /evaluator/features/orb/n_levels is 0")):
+            with tempfile.TemporaryDirectory() as folder:
+                said = self.refused_plan(os.path.join(folder, "plan"), output=folder, **typed)
                 self.assertEqual(os.listdir(folder), [])
                 self.assertIn("sunlit: ", said)
                 self.assertIn(words, said)

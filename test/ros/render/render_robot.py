@@ -241,6 +241,7 @@ class RenderRobot(RefusalTest):
         self.refused({"file": POLE, "base_frame": "head"}, 'robot/base_frame is "head"', "base_link, pole, weight")
         self.refused({"file": POLE, "camera_in_base": "head"}, 'robot/camera_in_base is "head"')
         self.refused({"file": POLE, "camera_in_base": [1, 2]}, "/refused/robot/camera_in_base", "[x, y, z]")
+        self.refused({"file": POLE, "camera_in_base": [0, 0, 90]}, "/refused/robot/camera_in_base", "from -50 to 50 m")
         self.refused({"file": POLE, "description": "x"}, "robot/description", "robot/file", "one source")
         self.refused({"description": "nowhere"}, "/nowhere does not exist")
         self.refused({"file": POLE, "joints": "loose"}, "/refused/robot/joints", "loose", "auto, rest, tf")

@@ -448,6 +448,11 @@ class Plan(unittest.TestCase):
         for spelling in ("True", "1"):
             self.assertEqual(planned(noise=spelling)["evaluator"]["about"]["noise"], "true")
 
+    def test_the_self_test_is_told_as_the_person_who_asks_for_it_calls_it(self):
+        """By the evaluator's streams and pairs, which follow from it, nobody would know it."""
+        self.assertEqual(planned(self_test="false", self_test_every="3")["evaluator"]["about"]["self_test"], "false")
+        self.assertEqual(planned(self_test="True", self_test_every="3")["evaluator"]["about"]["self_test"], "every 3")
+
     def told_again(self, before, evaluated=5, **typed):
         """What the evaluator is told where a run was told `before` about itself."""
         return planned(plan.Beginning(20, evaluated=evaluated, about=before), **typed)["evaluator"]["about"]

@@ -255,14 +255,6 @@ class OnATerminal(unittest.TestCase):
             display.restore(self.stream)
         self.assertEqual(self.written(), "experiment: rendering: 1 of 991 poses (0 %)\r\n")
 
-    def test_a_run_goes_on_whose_standard_output_was_closed(self):
-        nowhere = None  # as Python has it
-        shown = display.Display(nowhere)
-        shown.show(rendering(1))
-        shown.close()
-        display.restore(nowhere)
-        display.say("done", nowhere)
-
     def test_a_terminal_that_hangs_up_does_not_end_the_run(self):
         shown = display.Display(self.stream)
         shown.show(rendering(1))
@@ -332,6 +324,27 @@ class InAFile(unittest.TestCase):
         done = subprocess.run([sys.executable, "-c", words], cwd=os.path.join(SOURCE, "scripts"), stdout=write, stderr=subprocess.PIPE,
                               check=False)
         os.close(write)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+
+    def test_a_run_goes_on_whose_standard_output_was_closed(self):
+        """Also for what it starts. No file gets the descriptor: what others write there would be in it."""
+        words = """if True:
+            import subprocess, sys
+            from sunlit_experiment import display, progress
+            assert sys.stdout is None
+            display.open_standard_output()
+            with open(sys.argv[1], "w") as file:
+                assert file.fileno() > display.STANDARD_OUTPUT
+            shown = display.Display(sys.stdout)
+            shown.show(progress.Status(total=9))
+            shown.close()
+            display.restore(sys.stdout)
+            display.say("done", sys.stdout)
+            subprocess.run(["sh", "-c", "echo done"], check=True)
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", sys.executable, "-c", words, os.path.join(folder, "file")],
+                                  cwd=os.path.join(SOURCE, "scripts"), stderr=subprocess.PIPE, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
 
     def test_a_line_at_each_turn_and_every_half_minute(self):

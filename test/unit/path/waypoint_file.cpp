@@ -8,6 +8,7 @@
 #include "sunlit/path/path.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
+#include "support/utf16.h"
 
 namespace sunlit::path {
 namespace {
@@ -122,6 +123,14 @@ TEST_F(WaypointFile, OfTumNothingIsToldWhereNothingStands) {
       "from the one before");
   EXPECT_EQ(errorOf(tumOf({"0 0 1", "0 0 1e9"})),
             ":2: z is 1000000000, but must be from -10000000 to 10000000 m");
+}
+
+TEST_F(WaypointFile, IsUtf8WithOrWithoutItsMark) {
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "0,0\n1,0\n")
+                .size(),
+            2u);
+  EXPECT_EQ(errorOf(utf16Of("0,0\r\n1,0\r\n")), refusalOfUtf16(""));
 }
 
 TEST(WaypointFiles, AMissingOneIsNamed) {

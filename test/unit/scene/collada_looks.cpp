@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "scene/collada_effects.h"
 #include "scene/color.h"
@@ -125,6 +126,39 @@ TEST_F(ColladaLooks, ColoursMayStandInParameters) {
       "<effect id='a'><newparam sid='d'><float>1</float></newparam></effect>"
       "<effect id='b'><param ref='d'/></effect>";
   EXPECT_EQ(withParameters(other), other) << "of another effect";
+}
+
+TEST_F(ColladaLooks, WithoutADiffuseColourAreNoGreyOfAssimp) {
+  const std::string inputs = colladaInput("u", 0) + colladaInput("w", 1);
+  const auto colorOf = [&](const std::string& text) { return materialOf(loaded(text)).base_color.value; };
+  const std::string glow = "<emission><color>0 1 0 1</color></emission>",
+                    grey = "<diffuse><color>0.6 0.6 0.6 1</color></diffuse>";
+  for (const std::string diffuse : {"", "<diffuse/>", "<diffuse><param ref='none'/></diffuse>"}) {
+    EXPECT_TRUE((colorOf(colladaTriangle(glow + diffuse, inputs, "")) == 0.0f).all()) << diffuse;
+    std::string text = colladaTriangle("<ambient><color>1 0 0 1</color></ambient>" + diffuse, inputs, "");
+    EXPECT_TRUE((colorOf(text) == kNeutral.value).all()) << diffuse;
+    replaceIn(text, "<vertices id='v'>", colladaSource("c", "1 1 1 1 1 1 1 1 1", 3) + "<vertices id='v'>");
+    replaceIn(text, "<p>", "<input semantic='COLOR' source='#c' offset='1'/><p>");
+    EXPECT_TRUE((colorOf(text) == 1.0f).all()) << diffuse;
+  }
+  EXPECT_NEAR(colorOf(colladaTriangle(glow + grey, inputs, ""))[0], 0.31855f, 1e-4f);
+}
+
+TEST_F(ColladaLooks, OfMaterialsThatSetParametersAreNamed) {
+  const auto warningsOf = [&](const std::string& set) {
+    std::string text = colladaTriangle("<diffuse><param ref='d'/></diffuse>",
+                                       colladaInput("u", 0) + colladaInput("w", 1), "");
+    replaceIn(text, "<technique sid='c'>",
+              "<newparam sid='d'><float4>1 0 0 1</float4></newparam><technique sid='c'>");
+    replaceIn(text, "<instance_effect url='#e'/>",
+              "<instance_effect url='#e'><setparam ref='" + set +
+                  "'><float4>0 1 0 1</float4></setparam></instance_effect>");
+    return loaded(text).warnings;
+  };
+  const std::vector<std::string> warnings = warningsOf("d");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("<setparam>, which is not read: m of "), std::string::npos) << warnings[0];
+  EXPECT_TRUE(warningsOf("of_another_profile").empty());
 }
 
 TEST_F(ColladaLooks, OfConstantShadingHaveTheColourOfTheirEmission) {

@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <string>
+#include <utility>
+
 #include "scene/scene_builder.h"
+#include "support/utf16.h"
 #include "unit/scene/measure.h"
 #include "unit/scene/scene_files.h"
 
@@ -471,6 +475,18 @@ TEST_F(MeshFile, AMissingFileNamesThePlaces) {
 TEST_F(MeshFile, AnUnknownEndingIsAnError) {
   const std::string file = write("world.blend", "");
   EXPECT_EQ(errorOf(file).find(file + ": cannot tell its format"), 0u) << errorOf(file);
+}
+
+TEST_F(MeshFile, InUtf16IsRefusedByName) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  for (const auto& [name, text] : {std::pair<std::string, std::string>("t.obj", triangle),
+                                   {"t.dae", "<?xml version='1.0'?><COLLADA/>"},
+                                   {"t.gltf", "{}"}}) {
+    const std::string file = write(name, utf16Of(text));
+    EXPECT_EQ(errorOf(file), refusalOfUtf16(file));
+  }
+  const std::string library = write("l.mtl", utf16Of("newmtl m\nKd 1 0 0\n"));
+  EXPECT_EQ(errorOf(write("u.obj", "mtllib l.mtl\nusemtl m\n" + triangle)), refusalOfUtf16(library));
 }
 
 TEST_F(MeshFile, APipeIsRefusedInsteadOfWaitedFor) {

@@ -9,6 +9,7 @@
 #include "light/bake/cache/cache_file.h"
 #include "sunlit/image/cache_folder.h"
 #include "sunlit/light/transport.h"
+#include "sunlit/quantity/memory.h"
 
 namespace sunlit::light {
 namespace {
@@ -25,7 +26,7 @@ std::unique_ptr<const TransportData> readIfThere(const fs::path& file, const ima
   try {
     return readBake(file, key);
   } catch (const std::exception& problem) {
-    if (log) log(std::string("baked light is made anew: ") + problem.what());
+    if (log) log("baked light is made anew: " + reasonInWords(problem));
     return nullptr;
   }
 }
@@ -59,7 +60,7 @@ void keep(const fs::path& file, const image::ContentHash& key, const TransportDa
   try {
     writeBake(file, key, data);
   } catch (const std::exception& problem) {
-    if (log) log(std::string("baked light is not kept: ") + problem.what());
+    if (log) log("baked light is not kept: " + reasonInWords(problem));
   }
 }
 

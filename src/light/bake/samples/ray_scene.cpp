@@ -12,6 +12,7 @@
 #include "light/bake/samples/triangle_kinds.h"
 #include "light/geometry/cutout.h"
 #include "light/geometry/embree.h"
+#include "light/geometry/embree_fault.h"
 #include "light/geometry/triangle_mesh.h"
 
 namespace sunlit::light {
@@ -139,19 +140,11 @@ LeafParts solidParts(const Cutouts& cutouts, std::uint32_t masked, TriangleKind 
   return solid;
 }
 
-void requireFine(RTCDevice device, const char* what) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_NONE) return;
-  throw std::runtime_error(std::string("ray library (Embree): ") + what + ", error code " +
-                           std::to_string(static_cast<int>(error)));
-}
-
 }  // namespace
 
 struct RayScene::Embree {
   explicit Embree(std::shared_ptr<const Geometry> geometry_to_use)
-      : geometry(std::move(geometry_to_use)), cutouts(*geometry), device(rtcNewDevice(nullptr)) {
-    if (!device) throw std::runtime_error("ray library (Embree): no device");
+      : geometry(std::move(geometry_to_use)), cutouts(*geometry), device(newDevice()) {
     scene.reset(rtcNewScene(device.get()));
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
     rtcSetSceneFlags(scene.get(), kFilterOfQuery);
@@ -160,7 +153,7 @@ struct RayScene::Embree {
     attachWhole(kMasked);
     attachLeaves();
     rtcCommitScene(scene.get());
-    requireFine(device.get(), "cannot build the scene");
+    requireFine(device.get(), treeOf(geometry->triangles.size()));
   }
 
   void sortTriangles() {

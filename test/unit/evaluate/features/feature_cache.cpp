@@ -212,14 +212,31 @@ std::string withChecksum(std::string bytes, const std::string& key) {
   return bytes;
 }
 
+TEST_F(Cache, TellsOfFilesThatCannotBeReadByTheirCount) {
+  const std::string key = "0123456789abcdef0123456789abcdef";
+  const auto cache = open();
+  cache->keep(key, Features());
+  const std::string file = files().at(0);
+  for (int i = 0; i < 120; ++i) {
+    setContent(file, "damaged");
+    EXPECT_FALSE(cache->find(key));
+  }
+  ASSERT_EQ(log_.size(), 3u);
+  EXPECT_EQ(log_[0].find("so far"), std::string::npos) << log_[0];
+  EXPECT_NE(log_[1].find("; so far 10 files of them"), std::string::npos) << log_[1];
+  EXPECT_NE(log_[2].find("; so far 100 files of them"), std::string::npos) << log_[2];
+}
+
 TEST_F(Cache, BelievesNoNumbersThatDoNotFitWhateverTheChecksumSays) {
   const std::string key = "0123456789abcdef0123456789abcdef";
   Features features;
   features.key_points.resize(2);
   features.descriptors = cv::Mat::ones(2, 8, CV_32F);
-  const auto cache = open();
-  cache->keep(key, features);
-  ASSERT_TRUE(cache->find(key));
+  {
+    const auto cache = open();
+    cache->keep(key, features);
+    ASSERT_TRUE(cache->find(key));
+  }
   const std::string file = files().at(0), good = contentOf(file);
   // Points, rows, columns and type of the header.
   for (const auto& [at, number] : {std::pair{12, 3},
@@ -235,7 +252,7 @@ TEST_F(Cache, BelievesNoNumbersThatDoNotFitWhateverTheChecksumSays) {
                   sizeof(number));
     setContent(file, withChecksum(wrong, key));
     log_.clear();
-    EXPECT_FALSE(cache->find(key)) << at << " " << number;
+    EXPECT_FALSE(open()->find(key)) << at << " " << number;
     ASSERT_EQ(log_.size(), 1u);
     EXPECT_NE(log_[0].find("holds other numbers of features than it says"), std::string::npos) << log_[0];
   }

@@ -247,6 +247,8 @@ TEST(Evaluation, RefusesAFolderOfOtherSettingsNamingThem) {
   other.about[0].second = "it's another";
   EXPECT_NE(refusal(other).find("about/date was 2024-07-01, now it's another"), std::string::npos)
       << refusal(other);
+  other.comparer.ratio_test.ratio = 0.75;
+  EXPECT_NE(refusal(other).find("about/date was"), std::string::npos) << "what others may follow from";
   other = options;
   other.about[1].second = "[ 5.0,13,  20.50]";
   EXPECT_EQ(refusal(other), "") << "spelt otherwise";

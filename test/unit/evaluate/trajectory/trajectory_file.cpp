@@ -7,6 +7,7 @@
 #include "sunlit/evaluate/trajectory/trajectory.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
+#include "support/utf16.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -142,6 +143,11 @@ TEST_F(TrajectoryFile, NamesWhatIsNoNumber) {
        {"nan", "1.0s", "1e", "e5", ".", "-", "1e+-2", "0x10", "1e999", "1403715524907143168000000000"})
     EXPECT_EQ(errorOf(stamp + " 0 0 0 0 0 0 1\n"),
               ":1: timestamp is \"" + stamp + "\", but must be a number of seconds within ±9.2e9 s");
+}
+
+TEST_F(TrajectoryFile, InUtf16IsRefusedByName) {
+  EXPECT_EQ(errorOf(utf16Of("0 0 0 0 0 0 0 1\r\n1 0 0 0 0 0 0 1\r\n")), refusalOfUtf16(""));
+  EXPECT_EQ(errorOf(utf16Of("# timestamp tx ty tz qx qy qz qw\n0 0 0 0 0 0 0 1\n")), refusalOfUtf16(""));
 }
 
 TEST_F(TrajectoryFile, StampsIncrease) {
