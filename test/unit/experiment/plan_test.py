@@ -32,7 +32,7 @@ def defaults(**typed):
 
 def handed_on(**typed):
     """All arguments as the launch file hands them on where these are typed."""
-    return arguments.handed_on(shlex.split(resolved(LAUNCH_FILE, **defaults(**typed))["planned"]))
+    return arguments.handed_on(shlex.split(resolved(LAUNCH_FILE, plan="", **defaults(**typed))["planned"]))
 
 
 def resolved(launch_file, **typed):
