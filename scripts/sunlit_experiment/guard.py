@@ -72,7 +72,7 @@ def reason_to_act(launch):
 
 
 def main(pid, log_folder, *said):
-    display.open_standard_output()
+    display.open_standard_streams()
     launch = Launch(int(pid), log_folder)
     if OF_ROSLAUNCH in said and not launch.may_end_children:
         launch = Launch(GONE, log_folder)

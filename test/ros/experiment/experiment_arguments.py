@@ -211,6 +211,12 @@ class ExperimentArguments(unittest.TestCase):
                 found = self.parameters(**dict(dict(ROS_LOG_DIR=None, HOME=None), **there))
                 self.assertEqual(os.path.dirname(found["/experiment/plan"]), expected)
 
+    def test_with_standard_error_closed_it_is_planned_as_well(self):
+        with tempfile.TemporaryDirectory() as folder:
+            launch = ["roslaunch", "--dump-params", "sunlit", "experiment.launch", "output:=" + folder, "site:=[0, 100, 0]"]
+            found = yaml.safe_load(subprocess.check_output(["sh", "-c", 'exec "$@" 2>&-', "sh", *launch]))  # there is a note
+            self.assertEqual(found["/experiment/output"], folder)
+
     def slow_planning(self, folder, *parent):
         """What plans, in the midst of it, started by a command `parent`."""
         slow, begun = os.path.join(folder, "slow"), os.path.join(folder, "begun")

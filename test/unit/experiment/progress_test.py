@@ -356,26 +356,31 @@ class InAFile(unittest.TestCase):
         os.close(write)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
 
-    def test_a_run_goes_on_whose_standard_output_was_closed(self):
+    def test_a_run_goes_on_whose_standard_streams_were_closed(self):
         """Also for what it starts. No file gets the descriptor: what others write there would be in it."""
         words = """if True:
             import subprocess, sys
             from sunlit_experiment import display, progress
-            assert sys.stdout is None
-            display.open_standard_output()
+            closed = [name for _, name in display.STANDARD_STREAMS if getattr(sys, name) is None]
+            assert closed == sys.argv[2:]
+            display.open_standard_streams()
             with open(sys.argv[1], "w") as file:
-                assert file.fileno() > display.STANDARD_OUTPUT
+                assert file.fileno() > max(display.STANDARD_STREAMS)[0]
             shown = display.Display(sys.stdout)
             shown.show(progress.Status(total=9))
             shown.close()
             display.restore(sys.stdout)
             display.say("done", sys.stdout)
-            subprocess.run(["sh", "-c", "echo done"], check=True)
+            display.say("done", sys.stderr)
+            subprocess.run(["sh", "-c", "echo done; echo done >&2"], check=True)
         """
-        with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", sys.executable, "-c", words, os.path.join(folder, "file")],
-                                  env=FINDING, stderr=subprocess.PIPE, check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        for closing, names in ((">&-", ["stdout"]), ("2>&-", ["stderr"]), (">&- 2>&-", ["stdout", "stderr"])):
+            with tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run(["sh", "-c", 'exec "$@" ' + closing, "sh", sys.executable, "-c", words, os.path.join(folder, "file"), *names],
+                                      env=FINDING, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, "" if "stderr" in names else "done\ndone\n"))
+            self.assertNotIn("None", done.stdout)
+            self.assertEqual(done.stdout.count("done\n"), 0 if "stdout" in names else 2)
 
     def test_a_line_at_each_turn_and_every_half_minute(self):
         read, write = os.pipe()
