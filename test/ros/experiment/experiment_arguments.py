@@ -5,8 +5,10 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 import unittest.mock
+import xmlrpc.server
 from xml.etree import ElementTree
 
 import rosunit
@@ -138,6 +140,20 @@ class ExperimentArguments(unittest.TestCase):
                 self.assertEqual(os.listdir(folder), [])
                 self.assertIn("sunlit: ", said)
                 self.assertIn(words, said)
+
+    def test_beside_another_experiment_on_the_same_master_it_is_refused(self):
+        """Both would be broken off."""
+        with xmlrpc.server.SimpleXMLRPCServer(("localhost", 0), logRequests=False) as master, tempfile.TemporaryDirectory() as folder:
+            uri = "http://localhost:%d" % master.server_address[1]
+            master.register_function(lambda caller, name: [1, "", uri] if name == "/experiment" else [-1, "", ""], "lookupNode")
+            master.register_function(lambda caller: [1, "", os.getpid()], "getPid")
+            threading.Thread(target=master.serve_forever, daemon=True).start()
+            with unittest.mock.patch.dict(os.environ, ROS_MASTER_URI=uri):
+                said = self.refused_plan(os.path.join(folder, "plan"), output=os.path.join(folder, "output"))
+                self.assertIn("sunlit: an experiment is running on %s, and would be broken off" % uri, said)
+                self.assertEqual(os.listdir(folder), [])
+                self.parameters()  # where nothing is started
+            master.shutdown()
 
     def test_a_log_folder_that_cannot_be_written_to_is_told_in_a_line(self):
         with tempfile.TemporaryDirectory() as folder:
