@@ -18,7 +18,7 @@ sys.dont_write_bytecode = True
 SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
 sys.path.insert(0, os.path.join(SOURCE, "scripts"))
 
-from sunlit_experiment import arguments, earlier_run, others, plan  # noqa: E402
+from sunlit_experiment import arguments, earlier_run, others, plan, same_settings  # noqa: E402
 
 LAUNCH_FILE = os.path.join(SOURCE, "launch", "experiment.launch")
 ROBOTS = os.path.join(SOURCE, "worlds", "robots")
@@ -529,6 +529,16 @@ class Plan(unittest.TestCase):
                 verified.write("pose,stamp,a,b,detector,features_a\n")
                 verified.writelines("0,1000.0,%s,%s,orb,3\n" % pair for pair in evaluated[0])
             self.assertEqual(begins("all"), 1)
+
+    def test_files_of_an_earlier_run_need_not_be_found_from_a_folder_that_was_deleted(self):
+        before = {"world": "mine.world", "camera": "640x480, 60.0 deg, 1.0 m"}
+        self.addCleanup(os.chdir, os.getcwd())
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+        now = {"world": "/else/mine.world", "camera": "640x480, 60.0 deg, 1 m"}
+        self.assertEqual(same_settings.as_before(now, before, False), {**now, "camera": before["camera"]})
+        self.assertEqual(same_settings.as_before({**now, "camera": "640x480, 50.0 deg, 1 m"}, before, False)["camera"],
+                         "640x480, 50.0 deg, 1 m")
 
 
 class BesideOthers(unittest.TestCase):
