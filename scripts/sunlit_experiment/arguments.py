@@ -7,6 +7,7 @@ import itertools
 import math
 import os
 import re
+import sys
 import tempfile
 from xml.etree import ElementTree
 
@@ -23,6 +24,13 @@ class BadArgument(Exception):
 
     def __init__(self, name, value, allowed):
         super().__init__(f"argument {name} is {value!r}, but must be {allowed}")
+
+
+class BadPath(BadArgument):
+    """A file or folder that nodes could not be told of."""
+
+    def __init__(self, path, reason):
+        Exception.__init__(self, f"{path}: {reason}")  # pylint: disable=super-init-not-called,non-parent-init-called
 
 
 class _Ambiguous(yaml.constructor.ConstructorError):
@@ -420,13 +428,30 @@ def of_renderer(text):
 
 def folder(text):
     """As seen from where roslaunch was started. A shell leaves the ~ of NAME:=~/folder to us."""
-    return os.path.abspath(os.path.expanduser(text))
+    try:
+        return _told(os.path.abspath(os.path.expanduser(text)))
+    except FileNotFoundError:  # of the current one, which is asked for where the text is no whole path
+        raise BadPath(text, "the current folder has been deleted: change to one that is there, or give a whole path, "
+                            "which begins with /") from None
+
+
+def _told(path):
+    """As nodes get it, in UTF-8. Of other letters they would make the name of another file."""
+    if path.isascii():
+        return path
+    if sys.getfilesystemencoding() != "utf-8":
+        chosen = next((f"{name}={os.environ[name]}" for name in ("LC_ALL", "LC_CTYPE", "LANG") if os.environ.get(name)), "none")
+        raise BadPath(path, f"nodes would take its letters for others, since this locale ({chosen}) is not of UTF-8: "
+                            "set LC_ALL=C.UTF-8")
+    if os.fsencode(path) != path.encode(errors="replace"):
+        raise BadPath(path, "nodes cannot be told its letters, which are not of UTF-8: give it another name")
+    return path
 
 
 def file(text):
     """Seen as a folder is. A name without a dot or slash, such as race_track, stays, and so does what has a scheme, such as
     model://, package:// or https://, which nodes look up."""
-    return folder(text) if ("/" in text or "." in text) and "://" not in text else text
+    return folder(text) if ("/" in text or "." in text) and "://" not in text else _told(text)
 
 
 def folders(text):
@@ -481,11 +506,18 @@ def roslaunch_words():
     return []
 
 
+def _leads_to(word, file):
+    try:
+        return os.path.realpath(word) == file
+    except FileNotFoundError:  # of the current folder, which has been deleted
+        return False
+
+
 def given(launch_file, words):
     """What was typed behind the launch file as name:=value. roslaunch itself takes a misspelt name without a word, and would
     start a whole experiment, say, with the default."""
     ours = os.path.realpath(launch_file)
-    if not any((before == "sunlit" and word == os.path.basename(ours)) or os.path.realpath(word) == ours
+    if not any((before == "sunlit" and word == os.path.basename(ours)) or _leads_to(word, ours)
                for before, word in zip(words, words[1:])):
         return {}  # started by a launch file of the user's, whose arguments these are
     parts = [word.split(":=", 1) for word in words if ":=" in word and not word.startswith("_")]

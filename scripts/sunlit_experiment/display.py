@@ -13,7 +13,7 @@ from sunlit_experiment import progress
 LINE_EVERY_S = 30.0
 LOWEST = 4  # rows of a terminal of which one can be spared
 
-STANDARD_OUTPUT = 1  # descriptor
+STANDARD_STREAMS = ((1, "stdout"), (2, "stderr"))  # descriptors, and names as Python has them
 
 SAVE, RESTORE = "\x1b7", "\x1b8"
 CLEAR_LINE = "\x1b[2K"
@@ -28,11 +28,13 @@ def _lead_nowhere(descriptor):
         os.close(nowhere)
 
 
-def open_standard_output():
-    """Where it was closed, of which Python makes None: all that is written is lost, and no other file gets its descriptor."""
-    if sys.stdout is None:
-        _lead_nowhere(STANDARD_OUTPUT)
-        sys.stdout = open(STANDARD_OUTPUT, "w", encoding="utf-8", closefd=False)  # pylint: disable=consider-using-with
+def open_standard_streams():
+    """Those that were closed, of which Python makes None: all that is written is lost, and no other file gets their descriptors.
+    What print() gets of None goes to standard output, which others may read for something else."""
+    for descriptor, name in STANDARD_STREAMS:
+        if getattr(sys, name) is None:
+            _lead_nowhere(descriptor)
+            setattr(sys, name, open(descriptor, "w", encoding="utf-8", closefd=False))
 
 
 def restore(stream):

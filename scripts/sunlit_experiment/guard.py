@@ -17,6 +17,10 @@ LOOK_EVERY_S = 1.0
 PATIENCE_S = 5.0  # with a node whose roslaunch has gone
 OF_ROSLAUNCH = "of_roslaunch"  # said to the guard, which may start too late to see it
 IN_ORDER = b"."  # what the node says before it leaves
+STARTS = 10
+# Not by -m, which finds nothing of ours where PYTHONSAFEPATH is set; and nothing of the current folder is taken for ours.
+BEGIN = ("import sys; sys.path[:] = sys.argv[1:2] + [*filter(None, sys.path)]; "
+         "import sunlit_experiment.guard; sunlit_experiment.guard.main(*sys.argv[2:])")
 
 
 class Guard:
@@ -24,18 +28,28 @@ class Guard:
 
     def __init__(self, launch):
         self.launch = launch
+        self.starts_left, self.has_gone = STARTS, False
         self._start()
 
     def _start(self):
         scripts = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
         words = [str(self.launch.pid), self.launch.log_folder] + [OF_ROSLAUNCH] * self.launch.may_end_children
-        self.process = subprocess.Popen([sys.executable, "-m", "sunlit_experiment.guard"] + words, cwd=scripts,
-                                        stdin=subprocess.PIPE, start_new_session=True)
+        self.starts_left -= 1
+        self.process = subprocess.Popen([sys.executable, "-B", "-c", BEGIN, scripts] + words, stdin=subprocess.PIPE,
+                                        start_new_session=True)
 
     def check(self):
-        """Starts it again, should it have been killed."""
-        if self.process.poll() is not None:
+        """Starts it again, should it have been killed, but not for ever; nor one that cannot run."""
+        status = None if self.has_gone else self.process.poll()
+        if status is None:
+            return
+        if status < 0 and self.starts_left:
+            self.process.stdin.close()
             self._start()
+            return
+        self.has_gone = True
+        display.say(f"experiment: WARNING: the guard of this node ended, with status {status}: should the node itself be killed, "
+                    "roslaunch ends with status 0", sys.stderr)
 
     def dismiss(self):
         """Before the node leaves in order; once is enough."""
@@ -57,16 +71,13 @@ def reason_to_act(launch):
     return None if os.read(sys.stdin.fileno(), 1) == IN_ORDER else "the node that watches over it was killed"
 
 
-def main():
-    display.open_standard_output()
-    launch = Launch(int(sys.argv[1]), sys.argv[2])
-    if OF_ROSLAUNCH in sys.argv[3:] and not launch.may_end_children:
-        launch = Launch(GONE, sys.argv[2])
+def main(pid, log_folder, *said):
+    display.open_standard_streams()
+    launch = Launch(int(pid), log_folder)
+    if OF_ROSLAUNCH in said and not launch.may_end_children:
+        launch = Launch(GONE, log_folder)
     reason = reason_to_act(launch)
     if reason:
         display.restore(sys.stdout)
         launch.break_off(reason)
 
-
-if __name__ == "__main__":
-    main()

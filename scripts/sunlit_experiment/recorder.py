@@ -1,7 +1,6 @@
 """rosbag record beside an experiment, and the account of what all bags of its folder hold at the end."""
 
 import contextlib
-import ctypes
 import os
 import signal
 import subprocess
@@ -10,14 +9,9 @@ import roslib.packages
 
 from sunlit_experiment import recording
 from sunlit_experiment.launch import Failure
+from sunlit_experiment.parent import end_with_parent
 
 LIST = "recording.csv"
-
-
-def end_with_parent():
-    """In a child: SIGINT, at which a bag is closed in order, also when the parent has no time to send it."""
-    pr_set_pdeathsig = 1
-    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGINT)
 
 
 class Recorder:
@@ -33,7 +27,7 @@ class Recorder:
         self.process = None
         if self.has_poses_left:
             # -b 0: its buffer may grow, so that nothing is dropped. Below --min-space (1 GB by default) it would go on without
-            # recording; so a full disk ends it, and the run with it.
+            # recording; so a full disk ends it, and the run with it. At SIGINT it closes its bag in order.
             self.process = subprocess.Popen(
                 [roslib.packages.find_node("rosbag", "record")[0], "-b", "0", "--min-space=1", "-o",
                  os.path.join(output, recording.PREFIX[:-1]), "__name:=" + recording.NODE] + self.topics,

@@ -6,6 +6,8 @@ rosbag is imported where it is needed, since that takes longer than all the rest
 import collections
 import contextlib
 import dataclasses
+import errno
+import fcntl
 import os
 import shutil
 import struct
@@ -123,24 +125,50 @@ def ranges(numbers):
 
 
 def _writer_of(path):
-    """The process that has a file open; None where none of ours has."""
+    """Another process that has a file open; None where none of ours has."""
     path = os.path.realpath(path)  # as the kernel tells what is open, whatever links the folder has
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
-            if any(open_file.path == path for open_file in process.open_files()):
+            if process.pid != os.getpid() and any(open_file.path == path for open_file in process.open_files()):
                 return process.pid
     return None
 
 
-def _await_writer(path):
+def _await(path, is_free):
+    """Until nobody else needs a file any more, by what `is_free` says."""
     deadline = time.monotonic() + PATIENCE_S
-    while True:
-        pid = _writer_of(path)
-        if pid is None:
-            return
+    while not is_free():
         if time.monotonic() > deadline:
-            raise RecordingError(f"{path} is still being written, by process {pid}")
+            pid = _writer_of(path)
+            raise RecordingError(f"{path} is still being written or reindexed, by {f'process {pid}' if pid else 'another user'}")
         time.sleep(LOOK_EVERY_S)
+
+
+def _is_locked(descriptor):
+    """Now, by us."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        return error.errno != errno.EWOULDBLOCK  # not all file systems can
+    return True
+
+
+@contextlib.contextmanager
+def _ours(path):
+    """Whether a file is still there, once its recorder has closed it and nobody else is about to mend it, as the planner of
+    another experiment in the same folder may be."""
+    _await(path, lambda: _writer_of(path) is None)
+    try:
+        # Some file systems lock only what may be written to.
+        descriptor = os.open(path, os.O_RDWR if os.access(path, os.W_OK) else os.O_RDONLY)
+    except FileNotFoundError:
+        yield False
+        return
+    try:
+        _await(path, lambda: _is_locked(descriptor))
+        yield os.path.exists(path)
+    finally:
+        os.close(descriptor)
 
 
 def _reindexed(active, bag):
@@ -167,12 +195,13 @@ def mend(folder, tell):
     for entry in sorted(os.scandir(folder), key=lambda entry: entry.name):
         if not entry.name.startswith(PREFIX) or not entry.name.endswith(ACTIVE):
             continue
-        _await_writer(entry.path)
-        if not os.path.exists(entry.path):
-            continue  # its recorder was only late
-        bag = entry.path[:-len(".active")]
-        tell(f"{entry.path} was left by a run that was killed: reindexing it")
         try:
-            _reindexed(entry.path, bag)
+            with _ours(entry.path) as is_there:
+                if not is_there:
+                    continue  # its recorder was only late, or another has mended it
+                tell(f"{entry.path} was left by a run that was killed: reindexing it")
+                _reindexed(entry.path, entry.path[:-len(".active")])
+        except RecordingError:
+            raise
         except Exception as error:  # whatever a torn file makes of its reader
             tell(f"{entry.path} cannot be reindexed ({error}): it is left as it is, and its poses are rendered again")

@@ -50,4 +50,7 @@ def _is_same_camera(now, before, has_inputs):
 
 
 def _is_same_file(now, before):
-    return read.file(now).rstrip("/") == read.file(before).rstrip("/")
+    try:
+        return now == before or read.file(now).rstrip("/") == read.file(before).rstrip("/")
+    except read.BadPath:  # what cannot be named from here, such as a file of the current folder, which was deleted
+        return False

@@ -5,7 +5,10 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
+import unittest.mock
+import xmlrpc.server
 from xml.etree import ElementTree
 
 import rosunit
@@ -138,11 +141,54 @@ class ExperimentArguments(unittest.TestCase):
                 self.assertIn("sunlit: ", said)
                 self.assertIn(words, said)
 
+    def test_beside_another_experiment_on_the_same_master_it_is_refused(self):
+        """Both would be broken off."""
+        with xmlrpc.server.SimpleXMLRPCServer(("localhost", 0), logRequests=False) as master, tempfile.TemporaryDirectory() as folder:
+            uri = "http://localhost:%d" % master.server_address[1]
+            master.register_function(lambda caller, name: [1, "", uri] if name == "/experiment" else [-1, "", ""], "lookupNode")
+            master.register_function(lambda caller: [1, "", os.getpid()], "getPid")
+            threading.Thread(target=master.serve_forever, daemon=True).start()
+            with unittest.mock.patch.dict(os.environ, ROS_MASTER_URI=uri):
+                said = self.refused_plan(os.path.join(folder, "plan"), output=os.path.join(folder, "output"))
+                self.assertIn("sunlit: an experiment is running on %s, and would be broken off" % uri, said)
+                self.assertEqual(os.listdir(folder), [])
+                self.parameters()  # where nothing is started
+            master.shutdown()
+
     def test_a_log_folder_that_cannot_be_written_to_is_told_in_a_line(self):
         with tempfile.TemporaryDirectory() as folder:
             open(os.path.join(folder, "log"), "w").close()
             said = self.refused_plan(os.path.join(folder, "log", "plan"), output=folder)
             self.assertRegex(said.splitlines()[-1], "^sunlit: .*/log/plan: .*; ROS_LOG_DIR must name a folder that can be written to$")
+
+    def test_letters_that_nodes_would_take_for_others_are_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            localedef = subprocess.run(["localedef", "-i", "de_DE", "-f", "ISO-8859-1", os.path.join(folder, "de_DE")],
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+            if not os.path.isdir(os.path.join(folder, "de_DE")):
+                self.skipTest("no locale can be made here: " + localedef.stdout)
+            results = os.path.join(folder, "\u00e4")
+            with unittest.mock.patch.dict(os.environ, LOCPATH=folder, LC_ALL="de_DE"):
+                for name, text in (("output", results), ("world", os.path.join(folder, "\u00e4.world")), ("world", "w\u00e4rld")):
+                    said = self.refused_plan(os.path.join(folder, "plan"), **dict(dict(output=folder), **{name: text}))
+                    self.assertIn("nodes would take its letters for others, since this locale (LC_ALL=de_DE) is not of UTF-8: "
+                                  "set LC_ALL=C.UTF-8", said)
+            with unittest.mock.patch.dict(os.environ, LC_ALL="C.UTF-8"):
+                said = self.refused_plan(os.path.join(folder, "plan"), output=os.path.join(folder, "\udce4"))
+                self.assertIn("nodes cannot be told its letters, which are not of UTF-8", said)
+                self.assertEqual(os.listdir(folder), ["de_DE"])
+                self.parameters("output:=" + results)
+
+    def test_from_a_folder_that_was_deleted_whole_paths_are_needed_and_do(self):
+        with tempfile.TemporaryDirectory() as folder:
+            gone = ["sh", "-c", 'mkdir "$0" && cd "$0" && rmdir "$0" && exec "$@"', os.path.join(folder, "gone")]
+            launch = [*gone, "roslaunch", "--dump-params", "sunlit", "experiment.launch"]
+            found = yaml.safe_load(subprocess.check_output([*launch, "output:=" + folder]))
+            self.assertEqual(found["/experiment/output"], folder)
+            done = subprocess.run([*launch, "output:=results"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+            self.assertIn("sunlit: results: the current folder has been deleted: change to one that is there, or give a whole path, "
+                          "which begins with /\n", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
 
     def test_a_tilde_is_the_home_folder(self):
         """bash leaves it as it is in NAME:=~/file."""
@@ -170,7 +216,7 @@ class ExperimentArguments(unittest.TestCase):
 
     def test_the_plan_lies_beside_the_logs(self):
         with tempfile.TemporaryDirectory() as folder:
-            logs = os.path.join(folder, "with space")
+            logs = os.path.join(folder, "it's with space")
             found = self.parameters(ROS_LOG_DIR=logs, HOME=None)
             self.assertEqual(os.path.dirname(found["/experiment/plan"]), logs)
             with open(found["/experiment/plan"]) as file:
@@ -181,19 +227,38 @@ class ExperimentArguments(unittest.TestCase):
                 found = self.parameters(**dict(dict(ROS_LOG_DIR=None, HOME=None), **there))
                 self.assertEqual(os.path.dirname(found["/experiment/plan"]), expected)
 
+    def test_with_standard_error_closed_it_is_planned_as_well(self):
+        with tempfile.TemporaryDirectory() as folder:
+            launch = ["roslaunch", "--dump-params", "sunlit", "experiment.launch", "output:=" + folder, "site:=[0, 100, 0]"]
+            found = yaml.safe_load(subprocess.check_output(["sh", "-c", 'exec "$@" 2>&-', "sh", *launch]))  # there is a note
+            self.assertEqual(found["/experiment/output"], folder)
+
+    def slow_planning(self, folder, *parent):
+        """What plans, in the midst of it, started by a command `parent`."""
+        slow, begun = os.path.join(folder, "slow"), os.path.join(folder, "begun")
+        os.mkfifo(begun)
+        with open(slow, "w") as file:
+            file.write("#!/bin/sh\necho > '%s'\nexec sleep 60\n" % begun)
+        os.chmod(slow, 0o755)
+        planning = subprocess.Popen([*parent, *self.plan_command(os.path.join(folder, "plan"), slow, output=folder)],
+                                    start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        with open(begun):
+            return planning
+
     def test_interrupted_at_its_plan_it_ends_without_a_traceback(self):
         with tempfile.TemporaryDirectory() as folder:
-            slow, begun = os.path.join(folder, "slow"), os.path.join(folder, "begun")
-            os.mkfifo(begun)
-            with open(slow, "w") as file:
-                file.write("#!/bin/sh\necho > '%s'\nexec sleep 60\n" % begun)
-            os.chmod(slow, 0o755)
-            planning = subprocess.Popen(self.plan_command(os.path.join(folder, "plan"), slow, output=folder), start_new_session=True,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
-            with open(begun):
-                os.killpg(planning.pid, signal.SIGINT)  # as a terminal does
+            planning = self.slow_planning(folder)
+            os.killpg(planning.pid, signal.SIGINT)  # as a terminal does
             self.assertEqual(planning.communicate(timeout=60), ("", ""))
             self.assertEqual(planning.returncode, 130)
+
+    def test_what_plans_ends_with_the_roslaunch_that_asked_for_it(self):
+        """It would mend bags beside the roslaunch that is started next."""
+        with tempfile.TemporaryDirectory() as folder:
+            launch = self.slow_planning(folder, "sh", "-c", '"$@"; :', "sh")
+            launch.terminate()
+            # Both pipes are closed once all have ended.
+            self.assertEqual(launch.communicate(timeout=30), ("", ""))
 
 
 if __name__ == "__main__":

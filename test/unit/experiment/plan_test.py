@@ -4,6 +4,7 @@
 import os
 import re
 import shlex
+import socket
 import sys
 import tempfile
 import unittest
@@ -17,7 +18,7 @@ sys.dont_write_bytecode = True
 SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
 sys.path.insert(0, os.path.join(SOURCE, "scripts"))
 
-from sunlit_experiment import arguments, earlier_run, plan  # noqa: E402
+from sunlit_experiment import arguments, earlier_run, others, plan, same_settings  # noqa: E402
 
 LAUNCH_FILE = os.path.join(SOURCE, "launch", "experiment.launch")
 ROBOTS = os.path.join(SOURCE, "worlds", "robots")
@@ -32,7 +33,7 @@ def defaults(**typed):
 
 def handed_on(**typed):
     """All arguments as the launch file hands them on where these are typed."""
-    return arguments.handed_on(shlex.split(resolved(LAUNCH_FILE, **defaults(**typed))["planned"]))
+    return arguments.handed_on(shlex.split(resolved(LAUNCH_FILE, plan="", **defaults(**typed))["planned"]))
 
 
 def resolved(launch_file, **typed):
@@ -528,6 +529,40 @@ class Plan(unittest.TestCase):
                 verified.write("pose,stamp,a,b,detector,features_a\n")
                 verified.writelines("0,1000.0,%s,%s,orb,3\n" % pair for pair in evaluated[0])
             self.assertEqual(begins("all"), 1)
+
+    def test_files_of_an_earlier_run_need_not_be_found_from_a_folder_that_was_deleted(self):
+        before = {"world": "mine.world", "camera": "640x480, 60.0 deg, 1.0 m"}
+        self.addCleanup(os.chdir, os.getcwd())
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+        now = {"world": "/else/mine.world", "camera": "640x480, 60.0 deg, 1 m"}
+        self.assertEqual(same_settings.as_before(now, before, False), {**now, "camera": before["camera"]})
+        self.assertEqual(same_settings.as_before({**now, "camera": "640x480, 50.0 deg, 1 m"}, before, False)["camera"],
+                         "640x480, 50.0 deg, 1 m")
+
+
+class BesideOthers(unittest.TestCase):
+
+    def test_the_master_is_that_of_roslaunch(self):
+        launch = ["python3", "/opt/ros/bin/roslaunch", "sunlit", "experiment.launch", "hours:=[4, 5]"]
+        with mock.patch.dict(os.environ, ROS_MASTER_URI="http://robot:11311"):
+            self.assertEqual(others.master(launch), "http://robot:11311")
+            for port in (["-p", "11312"], ["-p11312"], ["--port", "11312"], ["--port=11312"]):
+                self.assertEqual(others.master(launch[:2] + port + launch[2:]), "http://localhost:11312")
+            self.assertIsNone(others.master(launch + ["--dump-params"]))
+            self.assertIsNone(others.master(launch + ["--args=/render"]))
+            del os.environ["ROS_MASTER_URI"]
+            self.assertEqual(others.master([]), "http://localhost:11311")
+
+    def test_what_does_not_answer_is_no_experiment(self):
+        with socket.socket() as silent, mock.patch.object(others, "PATIENCE_S", 0.2):
+            silent.bind(("localhost", 0))
+            port = silent.getsockname()[1]
+            for uri in ("http://localhost:%d" % port, "http://localhost:x", "localhost", ""):
+                self.assertFalse(others.is_running(uri), uri)
+            silent.listen()
+            self.assertFalse(others.is_running("http://localhost:%d" % port))
+        self.assertIsNone(socket.getdefaulttimeout())
 
 
 if __name__ == "__main__":

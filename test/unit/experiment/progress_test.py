@@ -23,9 +23,13 @@ SOURCE = os.path.join(HERE, "..", "..", "..")
 sys.path[:0] = [os.path.join(SOURCE, "test", "support"), os.path.join(SOURCE, "scripts")]
 
 from screen import Screen  # noqa: E402
-from sunlit_experiment import display, progress, summary  # noqa: E402
+from sunlit_experiment import display, guard as guarding, progress, summary  # noqa: E402
 from sunlit_experiment.guard import Guard  # noqa: E402
 from sunlit_experiment.launch import Failure  # noqa: E402
+
+
+# Where a child finds our modules, whatever else is set.
+FINDING = dict(os.environ, PYTHONPATH=os.pathsep.join([os.path.join(SOURCE, "scripts"), os.environ.get("PYTHONPATH", "")]))
 
 
 def rendering(done, total=991, **changes):
@@ -276,6 +280,33 @@ class Watched(unittest.TestCase):
         guard.dismiss()
         self.assertEqual(guard.process.returncode, 0)
 
+    def test_a_guard_is_found_whatever_python_looks_in(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(os.environ):
+            for name in ("select.py", "sunlit_experiment.py"):
+                with open(os.path.join(folder, name), "w") as file:
+                    file.write("raise SystemExit(7)\n")
+            self.addCleanup(os.chdir, os.getcwd())
+            os.chdir(folder)
+            for look in ({}, {"PYTHONSAFEPATH": "1"}):
+                os.environ.update(look)
+                guard = Guard(SimpleNamespace(pid=os.getpid(), log_folder="nowhere", may_end_children=False))
+                guard.dismiss()
+                self.assertEqual(guard.process.returncode, 0)
+
+    def test_a_guard_that_cannot_run_is_told_of_once_and_one_that_is_killed_is_not_started_for_ever(self):
+        launch = SimpleNamespace(pid=os.getpid(), log_folder="nowhere", may_end_children=False)
+        for begin, status, starts in (("raise SystemExit(3)", 3, 1),
+                                      ("import os; os.kill(os.getpid(), 9)", -signal.SIGKILL, guarding.STARTS)):
+            with mock.patch.object(guarding, "BEGIN", begin), mock.patch.object(guarding.display, "say") as said:
+                guard = Guard(launch)
+                for _ in range(guarding.STARTS + 2):
+                    guard.process.wait()
+                    guard.check()
+                self.assertEqual(said.call_count, 1)
+                self.assertIn("the guard of this node ended, with status %d:" % status, said.call_args[0][0])
+                self.assertEqual(guarding.STARTS - guard.starts_left, starts)
+                guard.dismiss()
+
     def test_a_guard_ends_what_a_roslaunch_started_that_went_before_it_looked(self):
         with tempfile.TemporaryDirectory() as folder:
             waits = [sys.executable, "-c", "import signal; signal.signal(signal.SIGINT, signal.SIG_DFL); print(flush=True); signal.pause()"]
@@ -302,8 +333,8 @@ class Watched(unittest.TestCase):
             with open(launcher, "w") as file:
                 file.write("import os, subprocess, sys\nfor word in sys.argv[1:]:\n"
                            "  subprocess.Popen([sys.executable, '-c', word, '__log:=%s/it.log'], preexec_fn=os.setpgrp)\n" % folder)
-            launched = subprocess.Popen([sys.executable, launcher, left, node], cwd=os.path.join(SOURCE, "scripts"),
-                                        start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            launched = subprocess.Popen([sys.executable, launcher, left, node], env=FINDING, start_new_session=True,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             self.assertEqual(launched.stdout.readline(), "up\n")
             launched.wait()
             open(os.path.join(folder, "gone"), "w").close()
@@ -321,31 +352,35 @@ class InAFile(unittest.TestCase):
         words = "import sys; from sunlit_experiment import display; [display.say('x' * 99999, sys.stdout) for _ in range(3)]"
         read, write = os.pipe()
         os.close(read)
-        done = subprocess.run([sys.executable, "-c", words], cwd=os.path.join(SOURCE, "scripts"), stdout=write, stderr=subprocess.PIPE,
-                              check=False)
+        done = subprocess.run([sys.executable, "-c", words], env=FINDING, stdout=write, stderr=subprocess.PIPE, check=False)
         os.close(write)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
 
-    def test_a_run_goes_on_whose_standard_output_was_closed(self):
+    def test_a_run_goes_on_whose_standard_streams_were_closed(self):
         """Also for what it starts. No file gets the descriptor: what others write there would be in it."""
         words = """if True:
             import subprocess, sys
             from sunlit_experiment import display, progress
-            assert sys.stdout is None
-            display.open_standard_output()
+            closed = [name for _, name in display.STANDARD_STREAMS if getattr(sys, name) is None]
+            assert closed == sys.argv[2:]
+            display.open_standard_streams()
             with open(sys.argv[1], "w") as file:
-                assert file.fileno() > display.STANDARD_OUTPUT
+                assert file.fileno() > max(display.STANDARD_STREAMS)[0]
             shown = display.Display(sys.stdout)
             shown.show(progress.Status(total=9))
             shown.close()
             display.restore(sys.stdout)
             display.say("done", sys.stdout)
-            subprocess.run(["sh", "-c", "echo done"], check=True)
+            display.say("done", sys.stderr)
+            subprocess.run(["sh", "-c", "echo done; echo done >&2"], check=True)
         """
-        with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", sys.executable, "-c", words, os.path.join(folder, "file")],
-                                  cwd=os.path.join(SOURCE, "scripts"), stderr=subprocess.PIPE, check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        for closing, names in ((">&-", ["stdout"]), ("2>&-", ["stderr"]), (">&- 2>&-", ["stdout", "stderr"])):
+            with tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run(["sh", "-c", 'exec "$@" ' + closing, "sh", sys.executable, "-c", words, os.path.join(folder, "file"), *names],
+                                      env=FINDING, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, "" if "stderr" in names else "done\ndone\n"))
+            self.assertNotIn("None", done.stdout)
+            self.assertEqual(done.stdout.count("done\n"), 0 if "stdout" in names else 2)
 
     def test_a_line_at_each_turn_and_every_half_minute(self):
         read, write = os.pipe()

@@ -2,11 +2,13 @@
 """What bags of a broken off run are worth, on bags made up here."""
 
 import os
+import select
 import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import genpy
 import rosbag
@@ -20,6 +22,7 @@ sys.path.insert(0, os.path.join(SOURCE, "scripts"))
 
 from sunlit_experiment import recording  # noqa: E402
 
+FINDING = dict(os.environ, PYTHONPATH=os.pathsep.join([os.path.join(SOURCE, "scripts"), os.environ.get("PYTHONPATH", "")]))
 A, B = "/a/camera/camera_info", "/b/camera/camera_info"
 TOPICS = ["/clock", A, B]
 CLOCK = recording.Clock(1000.0, 10.0)
@@ -118,6 +121,51 @@ class Recording(unittest.TestCase):
     def test_a_bag_that_is_still_being_written_is_waited_for(self):
         """A recorder outlives its experiment by the time that it needs to close its bag."""
         self.check_that_a_writer_is_waited_for()
+
+    def test_two_that_mend_at_once_do_it_once(self):
+        """As where the same experiment is started again before the planner of the first has ended."""
+        self.write("recording_1.bag", range(40))
+        self.kill("recording_1.bag")
+        mend = ("import sys; from sunlit_experiment import recording\n"
+                "recording.mend(sys.argv[1], lambda line: print(line, flush=True) or sys.stdin.readline())")
+        first, other = (subprocess.Popen([sys.executable, "-c", mend, self.folder], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                         env=FINDING) for _ in range(2))
+        told = [first.stdout, other.stdout]
+        ready, _, _ = select.select(told, [], [], 60)
+        begun = ready[0]
+        self.assertIn(b"reindexing", begun.readline())
+        busy, waits = (first, other) if begun is first.stdout else (other, first)
+        self.assertEqual(select.select([waits.stdout], [], [], 1.0)[0], [])
+        busy.communicate(b"\n")
+        self.assertEqual((waits.communicate()[0], busy.returncode, waits.returncode), (b"", 0, 0))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["recording_1.bag"])
+        self.assertEqual(self.union(40).first_missing(), 40)
+
+    def test_one_that_another_is_about_is_waited_for_until_patience_ends(self):
+        self.write("recording_1.bag", range(3))
+        active = self.path("recording_1.bag.active")
+        os.rename(self.path("recording_1.bag"), active)
+        with subprocess.Popen(["flock", active, "sh", "-c", "echo; read _"], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
+            holder.stdout.readline()
+            with mock.patch.object(recording, "PATIENCE_S", 0.3), self.assertRaises(recording.RecordingError) as refused:
+                self.mend()
+            # Seen or not, as where it is another user's.
+            with mock.patch.object(recording, "PATIENCE_S", 0.3), mock.patch.object(recording, "_writer_of", lambda _: None), \
+                    self.assertRaises(recording.RecordingError) as refused_unseen:
+                self.mend()
+            holder.communicate(b"\n")
+        self.assertRegex(str(refused.exception), "is still being written or reindexed, by process [0-9]+$")
+        self.assertRegex(str(refused_unseen.exception), "is still being written or reindexed, by another user$")
+        self.assertEqual((self.told, os.listdir(self.folder)), ([], ["recording_1.bag.active"]))
+
+    def test_what_was_killed_while_it_mended_is_done_again(self):
+        self.write("recording_1.bag", range(40))
+        self.kill("recording_1.bag")
+        with open(self.path("recording_1.bag.part"), "wb") as draft:
+            draft.write(b"x" * 10**6)
+        self.mend()
+        self.assertEqual(sorted(os.listdir(self.folder)), ["recording_1.bag"])
+        self.assertEqual(self.union(40).first_missing(), 40)
 
     def test_nor_is_one_taken_away_whose_folder_is_linked(self):
         linked = self.folder + "_linked"
