@@ -238,7 +238,8 @@ class ExperimentArguments(unittest.TestCase):
         slow, begun = os.path.join(folder, "slow"), os.path.join(folder, "begun")
         os.mkfifo(begun)
         with open(slow, "w") as file:
-            file.write("#!/bin/sh\necho > '%s'\nexec sleep 60\n" % begun)
+            # It may be left alone where a signal comes at once; then it must not hold what is read here.
+            file.write("#!/bin/sh\nexec 2> /dev/null\necho > '%s'\nexec sleep 60\n" % begun)
         os.chmod(slow, 0o755)
         planning = subprocess.Popen([*parent, *self.plan_command(os.path.join(folder, "plan"), slow, output=folder)],
                                     start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
@@ -257,7 +258,7 @@ class ExperimentArguments(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             launch = self.slow_planning(folder, "sh", "-c", '"$@"; :', "sh")
             launch.terminate()
-            # Both pipes are closed once all have ended.
+            # Both pipes are closed once what plans has ended.
             self.assertEqual(launch.communicate(timeout=30), ("", ""))
 
 
