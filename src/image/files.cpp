@@ -96,7 +96,10 @@ std::string reasonOf(int error) {
   return said;
 }
 
-void failAtFileLimit() {
+void prepareProcess() {
+  // What is opened gets the least number that is free.
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDWR);
   ::signal(SIGXFSZ, SIG_IGN);
 }
 

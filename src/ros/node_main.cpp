@@ -113,6 +113,7 @@ int refuseWord(const std::string& word, const std::string& name) {
 }  // namespace
 
 int runNode(int argc, char** argv, const std::string& name, const std::function<int()>& node) {
+  image::prepareProcess();
   std::optional<EndsWithItsParent> of_roslaunch;
   if (isOfRoslaunch(argc, argv)) of_roslaunch.emplace();
   ros::init(argc, argv, name);
@@ -120,7 +121,6 @@ int runNode(int argc, char** argv, const std::string& name, const std::function<
   // roscpp and its console end with the last handle: without this one, an exception that destroys the node's
   // own handles on its way here could no longer be printed.
   std::signal(SIGTERM, onTermination);
-  image::failAtFileLimit();
   const ros::NodeHandle alive;  // waits for a master
   if (of_roslaunch) of_roslaunch->haveMaster();
   try {

@@ -118,7 +118,7 @@ struct Called {
 /// program's name, for what `parse` or `run` throws.
 template <typename Parse, typename Run>
 int runProgram(const Called& called, const Parse& parse, const Run& run) {
-  image::failAtFileLimit();
+  image::prepareProcess();
   try {
     const auto options = parse(std::vector<std::string>(called.argv + 1, called.argv + called.argc));
     if (!options) return 0;

@@ -292,5 +292,14 @@ TEST_F(Files, BadFloatMapsSayWhichAndWhy) {
             path("d.pfm") + ": read: 40 bytes do not hold 4×4 pixels");
 }
 
+TEST(ProgramsDeathTest, ThatBeginWithoutStandardStreamsGiveTheirNumbersToNoFile) {
+  const auto begin = [] {
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) ::close(stream);
+    prepareProcess();
+    std::_Exit(::dup(STDERR_FILENO) > STDERR_FILENO ? 3 : 1);
+  };
+  EXPECT_EXIT(begin(), testing::ExitedWithCode(3), "");
+}
+
 }  // namespace
 }  // namespace sunlit::image
