@@ -11,9 +11,9 @@ namespace sunlit::image {
 /// What the system says of `error`, an errno; of a full disk, quota or limit also what to do.
 std::string reasonOf(int error);
 
-/// For a program to begin with. Standard streams that were closed (2>&-) lead nowhere, so that no file or socket
-/// of its own gets what is written to them; and a file beyond its limit (ulimit -f) is an error that reasonOf()
-/// tells, where the system would end the process without a word (SIGXFSZ).
+/// For a program to begin with. Standard streams that were closed (2>&-) lead nowhere, so that no file or
+/// socket of its own gets what is written to them; and a file beyond its limit (ulimit -f) is an error that
+/// reasonOf() tells, where the system would end the process without a word (SIGXFSZ).
 void prepareProcess();
 
 /// Writes `bytes` beside `path` under another name, makes them durable (fsync), then renames. The folder must
