@@ -128,13 +128,22 @@ std::string withPlainLines(const std::string& text, const std::string& file) {
   return plain;
 }
 
+/// Throws std::runtime_error naming `object`, too, where it cannot be read.
+MtlContent contentOfLibrary(const std::string& library, const std::filesystem::path& object) {
+  try {
+    return contentOfMtl(contentOf(library), library);
+  } catch (const std::runtime_error& problem) {
+    throw std::runtime_error(object.string() + ": its library " + problem.what());
+  }
+}
+
 /// Whether it is there; else the one that Assimp then looks for is added.
 bool addLibrary(const std::filesystem::path& object, const std::string& name, ObjLibraries& libraries) {
   std::filesystem::path library = object.parent_path() / name;
   const bool is_there = std::filesystem::exists(library);
   if (!is_there) library = std::filesystem::path(object).replace_extension("mtl");
   libraries.files.push_back(library.string());
-  const MtlContent content = contentOfMtl(contentOf(library.string()), library.string());
+  const MtlContent content = contentOfLibrary(library.string(), object);
   libraries.materials.insert(content.materials.begin(), content.materials.end());
   libraries.not_rendered.insert(libraries.not_rendered.end(), content.not_rendered.begin(),
                                 content.not_rendered.end());
