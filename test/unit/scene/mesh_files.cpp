@@ -486,7 +486,8 @@ TEST_F(MeshFile, InUtf16IsRefusedByName) {
     EXPECT_EQ(errorOf(file), refusalOfUtf16(file));
   }
   const std::string library = write("l.mtl", utf16Of("newmtl m\nKd 1 0 0\n"));
-  EXPECT_EQ(errorOf(write("u.obj", "mtllib l.mtl\nusemtl m\n" + triangle)), refusalOfUtf16(library));
+  const std::string object = write("u.obj", "mtllib l.mtl\nusemtl m\n" + triangle);
+  EXPECT_EQ(errorOf(object), object + ": its library " + refusalOfUtf16(library));
 }
 
 TEST_F(MeshFile, APipeIsRefusedInsteadOfWaitedFor) {
@@ -507,7 +508,8 @@ TEST_F(MeshFile, APipeThatAFileNamesIsRefusedInsteadOfWaitedFor) {
   for (const char* name : {"p.png", "p.bin", "p.mtl"}) ASSERT_EQ(::mkfifo(pathOf(name).c_str(), 0600), 0);
   expectOneWarning(load(write("t.dae", collada(kCentimetresZUp, "p.png")), {}),
                    "1 textures cannot be decoded, a neutral material takes their place: " + refusal("p.png"));
-  EXPECT_EQ(errorOf(write("t.obj", "mtllib p.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), refusal("p.mtl"));
+  EXPECT_EQ(errorOf(write("t.obj", "mtllib p.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")),
+            pathOf("t.obj") + ": its library " + refusal("p.mtl"));
   // Floats are read by Assimp, whole numbers before it.
   for (const std::string type : {"5126", "5122"}) {
     const std::string error =
