@@ -19,18 +19,22 @@ MORE_DIFFERENCES = ["akaze", "kaze", "rootsift", "onnx"]
 DETECTORS = ["sift", "surf", "orb", "brisk"] + MORE_DIFFERENCES
 
 
-class BadArgument(Exception):
-    """An argument of a launch file that cannot be used."""
+class Unusable(Exception):
+    """What was typed and cannot be used, and why, in a line."""
+
+
+class BadArgument(Unusable):
+    """An argument of a launch file, by its name."""
 
     def __init__(self, name, value, allowed):
         super().__init__(f"argument {name} is {value!r}, but must be {allowed}")
 
 
-class BadPath(BadArgument):
+class BadPath(Unusable):
     """A file or folder that nodes could not be told of."""
 
     def __init__(self, path, reason):
-        Exception.__init__(self, f"{path}: {reason}")  # pylint: disable=super-init-not-called,non-parent-init-called
+        super().__init__(f"{path}: {reason}")
 
 
 class _Ambiguous(yaml.constructor.ConstructorError):

@@ -78,7 +78,7 @@ class SlightlyWrongInputs(unittest.TestCase):
             text = slipped((more.get(name) or defaults[name] or "0").encode(), dice).decode(errors="replace")
             typed = dict(defaults, **{name: text})
             self.check((name, text), lambda typed=typed: (plan.check(typed), plan.parameters(
-                typed, {}, places, plan.Beginning(5))), arguments.BadArgument)
+                typed, {}, places, plan.Beginning(5))), arguments.Unusable)
 
     def test_what_an_earlier_run_left_is_taken_up_or_done_again(self):
         dice = random.Random(2)

@@ -152,16 +152,15 @@ void requireSameSettings(const std::string& path, const Settings& settings) {
                                 "; choose another output_dir, or the setting that it was made with");
   };
   std::map<std::string, std::string> current(settings.begin(), settings.end());
-  const auto compare = [&](bool about) {
-    for (const auto& item : settings) {
-      if ((item.first.rfind(kAbout, 0) == 0) != about) continue;
-      const auto found = old_settings.find(item.first);
-      if (found == old_settings.end()) refuse(item.first, "not given", item.second);
-      if (!areTheSame(found->second, item.second)) refuse(item.first, found->second, item.second);
-    }
-  };
-  compare(true);  // what a person typed first: other settings may follow from it
-  compare(false);
+  // What a person typed first: other settings may follow from it.
+  Settings ordered = settings;
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [](const auto& item) { return item.first.rfind(kAbout, 0) == 0; });
+  for (const auto& item : ordered) {
+    const auto found = old_settings.find(item.first);
+    if (found == old_settings.end()) refuse(item.first, "not given", item.second);
+    if (!areTheSame(found->second, item.second)) refuse(item.first, found->second, item.second);
+  }
   for (const auto& item : old_settings) {
     if (current.count(item.first) == 0) refuse(item.first, item.second, "not given");
   }

@@ -106,7 +106,7 @@ LampGlow::LampGlow(const std::vector<scene::Lamp>* lamps, const sky::Fog& fog, c
     pixels_.push_back(place ? Eigen::Vector2f(place->pixel.cast<float>())
                             : Eigen::Vector2f::Constant(kNowhere_px));
   }
-  findEnds(visibility);
+  findSights(visibility);
   open_.resize(beams_.size());
   tbb::parallel_for(std::size_t{0}, beams_.size(), [&](std::size_t i) { findShadows(i, visibility); });
   profiles_.assign(corners_.size(), dark());
@@ -116,18 +116,19 @@ LampGlow::LampGlow(const std::vector<scene::Lamp>* lamps, const sky::Fog& fog, c
   });
 }
 
-void LampGlow::findEnds(const Visibility& visibility) {
+void LampGlow::findSights(const Visibility& visibility) {
   RayList rays;
   rays.reserve(shadow_corners_.size());
-  for (std::size_t i = 0; i < shadow_corners_.size(); ++i)
-    rays.add(static_cast<std::uint32_t>(i), surfaces_.eye,
-             surfaces_.towards(shadow_corners_.x(i), shadow_corners_.y(i)));
+  for (std::size_t i = 0; i < shadow_corners_.size(); ++i) {
+    const Eigen::Vector3f towards = surfaces_.towards(shadow_corners_.x(i), shadow_corners_.y(i));
+    sights_.push_back({towards, std::numeric_limits<float>::infinity()});
+    rays.add(static_cast<std::uint32_t>(i), surfaces_.eye, towards);
+  }
   std::vector<Hit> hits(rays.size());
   visibility.closest(rays.rays(), hits.data());
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const float sine = surfaces_.towards(shadow_corners_.x(i), shadow_corners_.y(i)).z();
-    ends_m_.push_back(hits[i].triangle == Hit::kMiss ? std::numeric_limits<float>::infinity()
-                                                     : hits[i].distance - fog_.begins(sine));
+    if (hits[i].triangle != Hit::kMiss)
+      sights_[i].end_m = hits[i].distance - fog_.begins(sights_[i].towards.z());
   }
 }
 
@@ -141,11 +142,11 @@ void LampGlow::findShadows(std::size_t lamp, const Visibility& visibility) {
   RayList rays;
   rays.reserve(open.size() * FogSlices::kCount);
   for (std::size_t i = 0; i < open.size(); ++i) {
-    const Eigen::Vector3f towards = surfaces_.towards(shadow_corners_.x(i), shadow_corners_.y(i));
+    const auto& [towards, seen_m] = sights_[i];
     if (!std::isfinite(fog_.begins(towards.z()))) continue;
     for (std::size_t slice = 0; slice < FogSlices::kCount; ++slice) {
       const float from_m = slices_.end(slice), end_m = slices_.end(slice + 1),
-                  to_m = ends_m_[i] > from_m ? std::min(ends_m_[i], end_m) : end_m;
+                  to_m = seen_m > from_m ? std::min(seen_m, end_m) : end_m;
       const Eigen::Vector3f point = scatter_[lamp].middle(towards, from_m, to_m);
       const Eigen::Vector3f way = beam.ball() - point;
       const float distance_m = way.norm();
@@ -167,7 +168,7 @@ LampOpen LampGlow::openAt(std::size_t lamp, float x, float y) const {
   LampOpen open{}, weights{};
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t corner = about.corners[k];
-    const float end_m = ends_m_[corner];
+    const float end_m = sights_[corner].end_m;
     for (std::size_t slice = 0; slice < FogSlices::kCount; ++slice) {
       const bool reached = slices_.end(slice) < end_m, passed = slices_.end(slice + 1) < end_m;
       const float share = open_[lamp][corner][slice],

@@ -53,8 +53,12 @@ class LampGlow {
   };
   static Among among(const Lattice& lattice, float x, float y);
 
-  /// How far one sees into the fog along each of the shadows' corners.
-  void findEnds(const Visibility& visibility);
+  /// Where one looks along one of the shadows' corners, and how far into the fog, m from where it begins.
+  struct Sight {
+    Eigen::Vector3f towards;
+    float end_m;
+  };
+  void findSights(const Visibility& visibility);
   void findShadows(std::size_t lamp, const Visibility& visibility);
   LampOpen openAt(std::size_t lamp, float x, float y) const;
   void add(std::size_t lamp, float x, float y, GlowProfile* profile) const;
@@ -70,7 +74,7 @@ class LampGlow {
   std::vector<FogScatter> scatter_;      ///< of each
   std::vector<Eigen::Vector2f> pixels_;  ///< of each, far outside where none is
   Lattice corners_, shadow_corners_;
-  std::vector<float> ends_m_;                  ///< at shadow_corners_, from where fog begins
+  std::vector<Sight> sights_;                  ///< at shadow_corners_
   std::vector<std::vector<OpenSlices>> open_;  ///< of each lamp, at shadow_corners_
   std::vector<GlowProfile> profiles_;          ///< at corners_; empty: nothing glows
 };
