@@ -40,6 +40,16 @@ void merge(std::vector<SampleSeen>* seen) {
   seen->resize(kept);
 }
 
+/// Whether more than a share `many` of a sample's rays meet `others`, each of these counted once.
+bool seesMany(const SampleHits& seen, const std::vector<std::uint8_t>& others, float many) {
+  std::vector<std::uint32_t> met;
+  for (const SampleAndByte hit : seen.hits)
+    if (others[hit.sample()] != 0) met.push_back(hit.sample());
+  std::sort(met.begin(), met.end());
+  const auto different = std::unique(met.begin(), met.end()) - met.begin();
+  return static_cast<float>(different) > many * static_cast<float>(seen.hits.size());
+}
+
 /// Returns where those below the horizon begin.
 std::uint32_t pack(const std::array<std::vector<SampleSeen>, 2>& seen, std::vector<BakedRooms::Link>* links,
                    float* scale) {
@@ -126,20 +136,27 @@ struct RoomBaker::View {
   }
 };
 
-/// Not those in joints and gaps, which see but few others, close by.
+/// Not those in joints and gaps, which see but few others, close by. In corners, too, half of what is seen or
+/// more is one surface close by: who sees many of those that see many others is one of them.
 std::vector<std::uint32_t> RoomBaker::lookers() const {
+  constexpr float kMany = 0.5f;
+  // Where three surfaces meet, a quarter of the half sphere is left.
+  constexpr float kManyRooms = 1.0f / 6.0f;
+  const std::vector<std::uint8_t> all(samples_.receivers.size(), 1);
+  std::vector<std::uint8_t> rooms(all.size(), 0), corners(all.size(), 0);
+  const auto find = [&](const std::vector<std::uint8_t>& others, float many, std::vector<std::uint8_t>* to) {
+    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+      const Receiver& receiver = samples_.receivers[i];
+      const SampleHits& seen = exchange_.seen[i];
+      if (!seen.walled_in || seen.inside || receiver.coarse || receiver.thin) return;
+      if (seesMany(seen, others, many)) (*to)[i] = 1;
+    });
+  };
+  find(all, kMany, &rooms);
+  find(rooms, kManyRooms, &corners);
   std::vector<std::uint32_t> found;
-  std::vector<std::uint32_t> others;
-  for (std::uint32_t i = 0; i < samples_.receivers.size(); ++i) {
-    const Receiver& receiver = samples_.receivers[i];
-    const SampleHits& seen = exchange_.seen[i];
-    if (!seen.walled_in || seen.inside || receiver.coarse || receiver.thin) continue;
-    others.clear();
-    for (const SampleAndByte hit : seen.hits) others.push_back(hit.sample());
-    std::sort(others.begin(), others.end());
-    const auto distinct = std::unique(others.begin(), others.end()) - others.begin();
-    if (2 * static_cast<std::size_t>(distinct) > others.size()) found.push_back(i);
-  }
+  for (std::uint32_t i = 0; i < rooms.size(); ++i)
+    if (rooms[i] != 0 || corners[i] != 0) found.push_back(i);
   return found;
 }
 
