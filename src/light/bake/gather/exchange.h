@@ -24,6 +24,7 @@ struct SampleHits {
   float scale_up = 0.0f, scale_down = 0.0f;  ///< of the hits' weights, by direction
   bool inside = false;                       ///< of a body
   bool walled_in = false;                    ///< sees little but surfaces, other than leaves
+  bool outdoors = false;                     ///< sees clearly more of the sky than of surfaces
 };
 
 /// A sample that another one sees, and what its luminance × π counts there, in illuminance.

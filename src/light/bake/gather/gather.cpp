@@ -28,6 +28,8 @@ constexpr float kMostInside = 0.6f;  ///< share of rays that may end inside bodi
 /// Of what a sample looks at, by cosine, walls and the like: where they are less, most light comes from the
 /// sky, or in many parts through leaves.
 constexpr float kWalls = 0.8f;
+/// The same of surfaces of any kind: less than the reveal of a window sees.
+constexpr float kOutdoors = 0.4f;
 
 /// Fewer were asked for to see just these.
 constexpr int kBouncesBeforeAll = 3;
@@ -186,6 +188,7 @@ class Gatherer {
     seen.hits.assign(look->hits.begin(), look->hits.begin() + look->hit_count);
     seen.up = look->up;
     seen.inside = look->inside > kMostInside * look->all || (!receiver.thin && look->burial.buried());
+    seen.outdoors = look->blocked_up + look->blocked_down < kOutdoors * told;
     seen.walled_in = look->blocked_up + look->blocked_down - look->leaves > kWalls * told;
     seen.scale_down = scale;
     seen.scale_up = scale;

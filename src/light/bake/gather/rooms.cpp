@@ -21,8 +21,8 @@ namespace {
 /// them; fewer where there are many rooms, so that the links of the first 780,000 take 800 MB at most, about.
 constexpr std::size_t kMostDirections = 2048, kFewestDirections = 512;
 constexpr std::size_t kMostLinks = 200'000'000;
-/// So many directions stand in the place of one where what is open ends: most of a room's light may come
-/// through a window that takes a hundredth of all that is seen.
+/// So many directions stand in the place of one where what is open or outdoors ends: most of a room's light
+/// may come through a window that takes a hundredth of all that is seen.
 constexpr std::size_t kFine = 8;
 
 /// Puts together what was seen twice.
@@ -38,6 +38,16 @@ void merge(std::vector<SampleSeen>* seen) {
     }
   }
   seen->resize(kept);
+}
+
+/// Whether more than a share `many` of a sample's rays meet `others`, each of these counted once.
+bool seesMany(const SampleHits& seen, const std::vector<std::uint8_t>& others, float many) {
+  std::vector<std::uint32_t> met;
+  for (const SampleAndByte hit : seen.hits)
+    if (others[hit.sample()] != 0) met.push_back(hit.sample());
+  std::sort(met.begin(), met.end());
+  const auto different = std::unique(met.begin(), met.end()) - met.begin();
+  return static_cast<float>(different) > many * static_cast<float>(seen.hits.size());
 }
 
 /// Returns where those below the horizon begin.
@@ -126,20 +136,27 @@ struct RoomBaker::View {
   }
 };
 
-/// Not those in joints and gaps, which see but few others, close by.
+/// Not those in joints and gaps, which see but few others, close by. In corners, too, half of what is seen or
+/// more is one surface close by: who sees many of those that see many others is one of them.
 std::vector<std::uint32_t> RoomBaker::lookers() const {
+  constexpr float kMany = 0.5f;
+  // Where three surfaces meet, a quarter of the half sphere is left.
+  constexpr float kManyRooms = 1.0f / 6.0f;
+  const std::vector<std::uint8_t> all(samples_.receivers.size(), 1);
+  std::vector<std::uint8_t> rooms(all.size(), 0), corners(all.size(), 0);
+  const auto find = [&](const std::vector<std::uint8_t>& others, float many, std::vector<std::uint8_t>* to) {
+    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+      const Receiver& receiver = samples_.receivers[i];
+      const SampleHits& seen = exchange_.seen[i];
+      if (!seen.walled_in || seen.inside || receiver.coarse || receiver.thin) return;
+      if (seesMany(seen, others, many)) (*to)[i] = 1;
+    });
+  };
+  find(all, kMany, &rooms);
+  find(rooms, kManyRooms, &corners);
   std::vector<std::uint32_t> found;
-  std::vector<std::uint32_t> others;
-  for (std::uint32_t i = 0; i < samples_.receivers.size(); ++i) {
-    const Receiver& receiver = samples_.receivers[i];
-    const SampleHits& seen = exchange_.seen[i];
-    if (!seen.walled_in || seen.inside || receiver.coarse || receiver.thin) continue;
-    others.clear();
-    for (const SampleAndByte hit : seen.hits) others.push_back(hit.sample());
-    std::sort(others.begin(), others.end());
-    const auto distinct = std::unique(others.begin(), others.end()) - others.begin();
-    if (2 * static_cast<std::size_t>(distinct) > others.size()) found.push_back(i);
-  }
+  for (std::uint32_t i = 0; i < rooms.size(); ++i)
+    if (rooms[i] != 0 || corners[i] != 0) found.push_back(i);
   return found;
 }
 
@@ -170,7 +187,9 @@ class RoomBaker::Looking {
   using Lanes = ReceiverGroup::Lanes;
   struct Met {
     Lanes cast = 0, open = 0;
+    Lanes outdoors = 0;  ///< those that see the sky, or what sees much of it
     std::array<float, kPacket> weights;
+    std::array<std::uint32_t, kPacket> senders;  ///< where not open; LightMesh::kNone: inside a body
     HitPacket hits;
   };
   /// Who takes what was met, and for how many directions it stands.
@@ -183,21 +202,34 @@ class RoomBaker::Looking {
   void cast(std::size_t turn, const Sphere::Direction& direction, Lanes lanes, Met* met) const {
     met->cast = lanes & group_.weigh(direction.towards, met->weights.data());
     met->open = 0;
+    met->outdoors = 0;
     if (met->cast == 0) return;
     group_.cast(baker_.scene_.rays, {turn, direction.towards, met->cast}, &met->hits);
-    for (int lane = 0; lane < group_.count(); ++lane)
-      if (met->hits.triangle[lane] == HitPacket::kNothing) met->open |= Lanes{1} << lane;
-    met->open &= met->cast;
-  }
-  /// Those for whom sky ends at a coarse direction or beside it.
-  static Lanes edgesAt(const Sphere& sphere, std::size_t r, const std::vector<Met>& all) {
-    Lanes open = all[r].open, shut = all[r].cast & ~all[r].open;
-    for (std::uint32_t k = sphere.first_beside[r]; k < sphere.first_beside[r + 1]; ++k) {
-      const Met& other = all[sphere.beside[k]];
-      open |= other.open;
-      shut |= other.cast & ~other.open;
+    for (int lane = 0; lane < group_.count(); ++lane) {
+      if (!ReceiverGroup::has(met->cast, lane)) continue;
+      if (met->hits.triangle[lane] == HitPacket::kNothing) {
+        met->open |= Lanes{1} << lane;
+        continue;
+      }
+      const std::uint32_t from = senderAt({met->hits, lane, direction.towards});
+      met->senders[static_cast<std::size_t>(lane)] = from;
+      if (from != LightMesh::kNone && baker_.exchange_.seen[from].outdoors) met->outdoors |= Lanes{1} << lane;
     }
-    return open & shut;
+    met->outdoors |= met->open;
+  }
+  /// Those for whom sky, or what is outdoors, ends at a coarse direction or beside it.
+  static Lanes edgesAt(const Sphere& sphere, std::size_t r, const std::vector<Met>& all) {
+    Lanes open = 0, shut = 0, outdoors = 0, indoors = 0;
+    const auto add = [&](const Met& met) {
+      open |= met.open;
+      shut |= met.cast & ~met.open;
+      outdoors |= met.outdoors;
+      indoors |= met.cast & ~met.outdoors;
+    };
+    add(all[r]);
+    for (std::uint32_t k = sphere.first_beside[r]; k < sphere.first_beside[r + 1]; ++k)
+      add(all[sphere.beside[k]]);
+    return (open & shut) | (outdoors & indoors);
   }
   /// Rays that have met mirrors.
   struct InMirrors {
@@ -218,7 +250,7 @@ class RoomBaker::Looking {
         views_[i].open[static_cast<std::size_t>(direction.patch)] += weight;
         continue;
       }
-      const std::uint32_t from = senderAt({met.hits, lane, direction.towards});
+      const std::uint32_t from = met.senders[i];
       if (from == LightMesh::kNone) continue;
       views_[i].add({from, weight}, baker_.exchange_.scattered(from, direction.towards),
                     direction.patch != SkyPatches::kBelow);
