@@ -8,26 +8,44 @@
 
 namespace sunlit::render {
 
-double imageMotion_px_s(const image::DepthImage& depth, const image::Lens& lens, const Motion& motion) {
-  constexpr int kStep_px = 8;
-  constexpr double kFar_m = 1e6, kMoment_s = 1e-5;
-  std::vector<double> speeds;
-  for (int y = kStep_px / 2; y < depth.height; y += kStep_px) {
-    for (int x = kStep_px / 2; x < depth.width; x += kStep_px) {
-      const std::optional<Eigen::Vector3d> ray = lens.unproject({x, y});
-      if (!ray) continue;
-      const auto metres = static_cast<double>(*depth.at(x, y));
-      const Eigen::Vector3d point = (std::isfinite(metres) ? metres : kFar_m) * *ray;
-      // Seen from the camera all goes the other way.
-      const std::optional<Eigen::Vector2d> then =
-          lens.project(motion.after(kMoment_s, Eigen::Vector3d::Zero()).inverse() * point);
-      if (then) speeds.push_back((*then - Eigen::Vector2d(x, y)).norm() / kMoment_s);
-    }
-  }
-  if (speeds.empty()) return 0.0;
-  const auto nth = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() * 19 / 20);
-  std::nth_element(speeds.begin(), nth, speeds.end());
+namespace {
+
+/// What all but the fastest twentieth stay below; 0 of none.
+double withoutFastest(std::vector<double>* speeds) {
+  if (speeds->empty()) return 0.0;
+  const auto nth = speeds->begin() + static_cast<std::ptrdiff_t>(speeds->size() * 19 / 20);
+  std::nth_element(speeds->begin(), nth, speeds->end());
   return *nth;
+}
+
+}  // namespace
+
+double imageMotion_px_s(const image::DepthImage& depth, const image::Lens& lens, const Motion& motion) {
+  constexpr double kFar_m = 1e6, kMoment_s = 1e-5;
+  // Seen from the camera all goes the other way.
+  const Eigen::Isometry3d seen_then = motion.after(kMoment_s, Eigen::Vector3d::Zero()).inverse();
+  const auto speedsOf = [&](bool sky_too, int step_px) {
+    std::vector<double> speeds;
+    for (int y = step_px / 2; y < depth.height; y += step_px) {
+      for (int x = step_px / 2; x < depth.width; x += step_px) {
+        const auto metres = static_cast<double>(*depth.at(x, y));
+        const bool sky = !std::isfinite(metres);
+        if (sky && !sky_too) continue;
+        const std::optional<Eigen::Vector3d> ray = lens.unproject({x, y});
+        if (!ray) continue;
+        const std::optional<Eigen::Vector2d> then =
+            lens.project(seen_then * ((sky ? kFar_m : metres) * *ray));
+        if (then) speeds.push_back((*then - Eigen::Vector2d(x, y)).norm() / kMoment_s);
+      }
+    }
+    return speeds;
+  };
+  constexpr int kStep_px = 8;
+  constexpr std::size_t kFew = 200;
+  std::vector<double> all = speedsOf(true, kStep_px), things = speedsOf(false, kStep_px);
+  if (things.size() < kFew) things = speedsOf(false, 1);  // a post may stand between points that far apart
+  // A sign before the sky is what such a picture is taken for.
+  return std::max(withoutFastest(&all), withoutFastest(&things));
 }
 
 int exposuresOf(double smear_px, int most) {

@@ -7,8 +7,9 @@
 
 namespace sunlit::render {
 
-/// px/s that all but the fastest twentieth of the picture stay below. `motion` is in the optical frame;
-/// `depth` as Renderer::depth(), where NaN is so far away that only turning moves it.
+/// px/s that all but the fastest twentieth of the picture stay below, and of what is before the sky in it.
+/// `motion` is in the optical frame; `depth` as Renderer::depth(), where NaN is so far away that only turning
+/// moves it.
 double imageMotion_px_s(const image::DepthImage& depth, const image::Lens& lens, const Motion& motion);
 
 /// Pictures that one in which all runs by `smear_px` is the mean of: one a pixel, `most` at most.

@@ -77,7 +77,12 @@ class Evaluator:
 
     def wait(self):
         """Exit status and everything that it logged."""
-        output, _ = self.process.communicate(timeout=LONGEST_WAIT_S)
+        try:
+            output, _ = self.process.communicate(timeout=LONGEST_WAIT_S)
+        except subprocess.TimeoutExpired:
+            self.process.send_signal(signal.SIGINT)  # says what it waits for, and how far it came
+            output, _ = self.process.communicate(timeout=LONGEST_WAIT_S)
+            raise AssertionError('the evaluator still ran after %g s:\n%s' % (LONGEST_WAIT_S, output))
         return self.process.returncode, output
 
 

@@ -123,6 +123,45 @@ TEST(UnderWay, ACameraThatDrivesSeesWhatIsNearSkewed) {
   }
 }
 
+/// All that is there but the sky: 1.7 px of the 320 of `camera()`, from top to bottom.
+scene::Scene post() {
+  scene::Scene scene = halves();
+  scene.meshes.erase(scene.meshes.begin());
+  for (Eigen::Vector3f& position : scene.meshes.front().positions)
+    position.y() = std::max(position.y(), -0.03f);
+  return scene;
+}
+
+/// Where a row's light is in the mean, px.
+double middleOf(const image::LinearImage& picture, int row) {
+  double light = 0.0, moment = 0.0;
+  for (int x = 0; x < picture.width; ++x) light += *picture.at(x, row), moment += *picture.at(x, row) * x;
+  return moment / light;
+}
+
+TEST(UnderWay, APostBeforeTheSkyIsSkewedAndSmearedThoughMostOfThePictureStands) {
+  const double line_delay_s = 4e-5, exposure_s = 0.02;
+  Renderer renderer(shared(post()), camera());
+  renderer.look(eastward());
+  const light::Illumination light(nightfall());
+  const Eigen::Vector3d northward(0.0, 10.0, 0.0);
+  const image::LinearImage still = renderer.light(light);
+  const image::LinearImage rolled = renderer.light(light, 0, driving(northward, line_delay_s));
+  for (int row = 0; row < 240; row += 13) {
+    const double skew = camera().camera.fx * 10.0 * line_delay_s * row / kWall_m;
+    EXPECT_NEAR(middleOf(rolled, row) - middleOf(still, row), skew, 0.125 + 0.125) << row;
+  }
+  const UnderWay smeared = driving(northward, 0.0, exposure_s);
+  EXPECT_EQ(renderer.exposures(smeared), 12);
+  const auto lit = [](const image::LinearImage& picture) {
+    int count = 0;
+    for (int x = 0; x < picture.width; ++x) count += *picture.at(x, 120) > 1.0f ? 1 : 0;
+    return count;
+  };
+  // 11.1 px of smear, of which half a twelfth is before the first picture's moment and behind the last one's.
+  EXPECT_NEAR(lit(renderer.light(light, 0, smeared)) - lit(still), 11.1 * 11 / 12, 1.0);
+}
+
 TEST(UnderWay, WhatMovesIsSmearedEvenlyOverTheExposure) {
   // f v T / Z = 277 · 10 · 0.02 / 5 = 11.1 px: a ramp of that length about where the edge is sharp.
   Renderer renderer(shared(halves()), camera());
