@@ -2,6 +2,7 @@
 #include <GL/osmesa.h>
 
 #include <array>
+#include <cstdint>
 #include <stdexcept>
 
 #include "render/gl/context.h"
