@@ -250,7 +250,8 @@ void readLine(const Words& line, Reading& reading) {
       if (!by_alpha) material.lost.insert(words[0]);
     }
     if (words[0] == "texture") readTexture(words, reading);
-    if (words[0] == "alpha_rejection") material.alpha_rejection = true;
+    if (words[0] == "alpha_rejection" && words.size() > 1 && words[1] != "always_pass")
+      material.alpha_rejection = true;
     if (words[0] == "emissive" && !material.emissive) material.emissive = colorOf(words);
     if (kLost.count(words[0]) > 0) material.lost.insert(words[0]);
   }

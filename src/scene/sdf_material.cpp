@@ -176,7 +176,10 @@ std::optional<int> SdfMaterials::add(const sdf::Material* source) {
     readPbr(*source, material);
   }
   nameLost(*source, material.name);
-  const int index = builder_.addMaterial(material, AlphaRule::kFromTexture);
+  // A script says it where alpha is to be looked at: many a picture keeps other things in it, such as
+  // heights.
+  const AlphaRule alpha = scripted && !pbr ? AlphaRule::kDeclared : AlphaRule::kFromTexture;
+  const int index = builder_.addMaterial(material, alpha);
   if ((texture_scale != 1.0f).any()) texture_scales_[index] = texture_scale;
   return index_by_content_[content] = index;
 }

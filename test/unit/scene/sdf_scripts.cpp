@@ -113,6 +113,20 @@ TEST_F(SdfScripts, TintTheirTextureByTheirDiffuseColour) {
       << "a colour that stands for a picture";
 }
 
+TEST_F(SdfScripts, LookAtAPicturesAlphaWhereTheySaySo) {
+  writeTexture("share/a/wall.png", 3);
+  const auto mode = [&](const std::string& words) {
+    write("share/a/wall.material", script("My/Wall", words + "\n" + pictured("wall.png")));
+    const Scene scene = loaded("My/Wall", uri("model://a"));
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    return look(scene).alpha_mode;
+  };
+  EXPECT_EQ(mode(""), AlphaMode::kOpaque);
+  EXPECT_EQ(mode("alpha_rejection always_pass 0"), AlphaMode::kOpaque);
+  EXPECT_EQ(mode("alpha_rejection greater 128"), AlphaMode::kMask);
+  EXPECT_EQ(mode("scene_blend alpha_blend"), AlphaMode::kBlend);
+}
+
 TEST_F(SdfScripts, InheritFromOtherFiles) {
   write("share/a/base.material", script("My/Base", "diffuse 0 1 0 1\n" + pictured("base.png")));
   writeTexture("share/a/base.png");
