@@ -183,7 +183,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   outcome.key_frames = result.key_frames;
   outcome.queries = result.rows.size();
   outcome.unobserved = unobserved(drives.streams, result.rows);
-  outcome.uncompared = uncompared(drives.streams);
+  outcome.uncompared = uncompared(drives.streams, result.rows);
   writeRunFile(file("run.yaml"), options_, &finished_, &outcome);
   if (result.rows.empty()) return outcome;
   localised_ = measuredOf(result.rows);
@@ -238,8 +238,11 @@ std::size_t Evaluation::State::unobserved(const ObservedStreams& streams,
   return lacking.size();
 }
 
-std::vector<std::string> Evaluation::State::uncompared(const ObservedStreams& streams) const {
+// What was looked at though its pair failed, as where one of several detectors throws, has rows.
+std::vector<std::string> Evaluation::State::uncompared(const ObservedStreams& streams,
+                                                       const std::vector<LocalisationRow>& rows) const {
   std::set<std::string> compared;
+  for (const LocalisationRow& row : rows) compared.insert({row.map, row.query});
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const PairRecord& record : records_)
     compared.insert({options_.pairs[record.pair].a, options_.pairs[record.pair].b});

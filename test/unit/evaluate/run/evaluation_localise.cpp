@@ -517,6 +517,24 @@ TEST(EvaluationLocalise, APictureThatADetectorThrowsAtCostsItsOwnPairsAlone) {
   EXPECT_EQ(rowsOf(outcome, "night", "orb"), 4u);
 }
 
+TEST(EvaluationLocalise, ADetectorThatThrowsAtAllPicturesLeavesNoStreamOut) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(moody(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    for (std::size_t s = 0; s < 3; ++s) {
+      evaluation.addCamera(s, told(viewOf(pose).camera));
+      evaluation.addImage(s, stampOf(pose), marked(lit(pose, s)));
+    }
+    evaluation.waitForRoom(0);
+  }
+  EXPECT_FALSE(evaluation.finish().isWhole());
+  const LocalisationOutcome outcome = evaluation.localise({});
+  EXPECT_EQ(rowsOf(outcome, "night", "orb"), 4u);
+  EXPECT_EQ(rowsOf(outcome, "night", "moody"), 0u);
+  EXPECT_TRUE(outcome.uncompared.empty()) << outcome.uncompared.front();
+}
+
 TEST(EvaluationLocalise, WithoutAKeyFrameNothingIsClaimed) {
   const TemporaryFolder folder;
   Evaluation evaluation(localising(folder), {});
