@@ -101,6 +101,10 @@ unset(CMAKE_REQUIRED_LINK_OPTIONS)
 add_library(sunlit_test_flags INTERFACE)
 target_link_libraries(sunlit_test_flags INTERFACE sunlit_flags ${CMAKE_DL_LIBS})  # dladdr(), which C libraries before 2.34 have apart
 target_compile_options(sunlit_test_flags INTERFACE $<$<CONFIG:Release>:-O1> -fvisibility-inlines-hidden)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  # They take an optional within an empty optional for one that is read, where so few optimisations are made.
+  target_compile_options(sunlit_test_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-maybe-uninitialized>)
+endif()
 if(SUNLIT_GOLD)
   target_link_options(sunlit_test_flags INTERFACE -fuse-ld=gold)
 endif()
