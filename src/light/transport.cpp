@@ -11,6 +11,7 @@
 #include "light/bake/gather/gather.h"
 #include "light/bake/gather/relight.h"
 #include "light/bake/samples/node_lights.h"
+#include "light/bake/samples/parting_walls.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/patches/mirror_sky.h"
 #include "light/patches/sky_sectors.h"
@@ -51,7 +52,7 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
       [&] { samples = sampleScene(scene, shining, limits, [&](double share) { note(share, &sampled); }); });
   const GatherOptions gather{options.rays_per_patch, options.bounces, shining,
                              [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
-  samples.mesh.drop(gatherLight(scene, samples, gather, data.get()));
+  samples.mesh.drop(gatherLight(scene, samples, gather, data.get()), PartingWalls(scene, samples));
   data->mesh = std::move(samples.mesh);
   return std::make_shared<const Transport>(options, std::move(data));
 }

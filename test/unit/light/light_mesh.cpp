@@ -12,6 +12,10 @@ namespace {
 
 using Expected = std::vector<std::uint32_t>;
 
+bool nowhere(std::uint32_t, std::uint32_t) {
+  return false;
+}
+
 /// A strip of triangles: nodes n, n + 1 and n + 2 are the corners of cell n. Node n has the sample n alone.
 LightMesh strip(std::uint32_t nodes) {
   LightMesh mesh;
@@ -40,8 +44,8 @@ TEST(LightMesh, ANodeWithoutUsefulSamplesHasThatOfTheNearest) {
   LightMesh mesh = strip(5);
   const std::vector<bool> useless = {false, false, true, true, true};
   // Node 2 is in a cell with 0 and 1, node 3 with 1 alone, node 4 with 2 and 3, which had none either.
-  EXPECT_EQ(mesh.usefulSamples(useless), (Expected{0, 1, 0, 1, 0}));
-  mesh.drop(useless);
+  EXPECT_EQ(mesh.usefulSamples(useless, nowhere), (Expected{0, 1, 0, 1, 0}));
+  mesh.drop(useless, nowhere);
   EXPECT_EQ(mesh.shares[3].sample, 1u);
   EXPECT_EQ(mesh.shares[3].weight, 1.0f);
   EXPECT_EQ(mesh.shares[0].sample, 0u);
@@ -52,11 +56,22 @@ TEST(LightMesh, FarFromUsefulSamplesNodesKeepTheirOwn) {
   std::vector<bool> useless(11, true);
   useless[0] = false;
   // Four rings of cells reach nodes 1 and 2, 3 and 4, 5 and 6, 7 and 8.
-  EXPECT_EQ(mesh.usefulSamples(useless)[8], 0u);
-  EXPECT_EQ(mesh.usefulSamples(useless)[9], LightMesh::kNone);
-  mesh.drop(useless);
+  EXPECT_EQ(mesh.usefulSamples(useless, nowhere)[8], 0u);
+  EXPECT_EQ(mesh.usefulSamples(useless, nowhere)[9], LightMesh::kNone);
+  mesh.drop(useless, nowhere);
   EXPECT_EQ(mesh.shares[8].sample, 0u);
   EXPECT_EQ(mesh.shares[9].sample, 9u);
+}
+
+TEST(LightMesh, ANodeHasTheSampleOfAFartherOneRatherThanThatBehindAWall) {
+  const LightMesh mesh = strip(6);
+  const std::vector<bool> useless = {false, true, true, true, true, false};
+  // Cells about node 3 lead to 5 at once, and to 0 in two steps.
+  EXPECT_EQ(mesh.usefulSamples(useless, nowhere)[3], 5u);
+  const auto parted = [](std::uint32_t sample, std::uint32_t other) { return sample == 3 && other == 5; };
+  EXPECT_EQ(mesh.usefulSamples(useless, parted)[3], 0u);
+  // Better than none.
+  EXPECT_EQ(mesh.usefulSamples(useless, [](std::uint32_t, std::uint32_t) { return true; })[3], 5u);
 }
 
 TEST(LightMesh, OfSeveralSamplesTheUsefulOnesShareAllTheWeight) {
@@ -64,8 +79,8 @@ TEST(LightMesh, OfSeveralSamplesTheUsefulOnesShareAllTheWeight) {
   mesh.first_share.own() = {0, 3, 4, 5};
   mesh.shares.own() = {{0, 0.5f}, {1, 0.2f}, {2, 0.3f}, {1, 1.0f}, {2, 1.0f}};
   const std::vector<bool> useless = {true, false, false};
-  EXPECT_EQ(mesh.usefulSamples(useless)[0], 2u);
-  mesh.drop(useless);
+  EXPECT_EQ(mesh.usefulSamples(useless, nowhere)[0], 2u);
+  mesh.drop(useless, nowhere);
   EXPECT_EQ(mesh.shares[0].weight, 0.0f);
   EXPECT_FLOAT_EQ(mesh.shares[1].weight, 0.4f);
   EXPECT_FLOAT_EQ(mesh.shares[2].weight, 0.6f);
@@ -85,7 +100,7 @@ TEST(Exchange, RaysThatMeetUselessSamplesMeetThoseBeside) {
   exchange.seen[0].hits = {SampleAndByte::of(1, 7), SampleAndByte::of(4, 7), SampleAndByte::of(10, 9)};
   exchange.seen[0].up = 3;
   // 4 is amid others; the cells around 10 and those beside them hold none that is of use.
-  exchange.passOver({false, false, true, true, true, true, true, true, true, true, true});
+  exchange.passOver({false, false, true, true, true, true, true, true, true, true, true}, nowhere);
   EXPECT_EQ(exchange.ray(0, 0).from, 1u);
   EXPECT_EQ(exchange.ray(0, 1).from, 0u);
   EXPECT_EQ(exchange.ray(0, 1).direction, 7u);

@@ -143,12 +143,16 @@ void Exchange::useRooms() {
   }
 }
 
-void Exchange::passOver(const std::vector<bool>& useless) {
-  const std::vector<std::uint32_t> useful = samples_.mesh.usefulSamples(useless);
+void Exchange::passOver(const std::vector<bool>& useless, const LightMesh::Parted& parted) {
+  const std::vector<std::uint32_t> useful = samples_.mesh.usefulSamples(useless, parted);
   instead_.assign(useless.size(), LightMesh::kNone);
-  for (std::size_t n = 0; n < useful.size(); ++n) {
-    const std::uint32_t sample = samples_.nearest_sample[n];
-    if (useless[sample] && instead_[sample] == LightMesh::kNone) instead_[sample] = useful[n];
+  // A sample may count most in several nodes, some of them behind the wall.
+  for (const bool anywhere : {false, true}) {
+    for (std::size_t n = 0; n < useful.size(); ++n) {
+      const std::uint32_t sample = samples_.nearest_sample[n];
+      if (!useless[sample] || instead_[sample] != LightMesh::kNone || useful[n] == LightMesh::kNone) continue;
+      if (anywhere || !parted(sample, useful[n])) instead_[sample] = useful[n];
+    }
   }
   tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
     for (SampleAndByte& hit : seen[i].hits) hit = SampleAndByte::of(usefulBeside(hit.sample()), hit.byte());

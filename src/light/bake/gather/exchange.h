@@ -73,8 +73,9 @@ class Exchange {
             ray.solid_angle * samples_.receivers[sample].weight(ray.towards) *
                 (up ? view.scale_up : view.scale_down) / kPiFloat};
   }
-  /// Of all that is `seen`, puts samples beside it in the place of those that are of no use. Parallel.
-  void passOver(const std::vector<bool>& useless);
+  /// Of all that is `seen`, puts samples beside it in the place of those that are of no use: if any, such as
+  /// they are not parted from. Parallel.
+  void passOver(const std::vector<bool>& useless, const LightMesh::Parted& parted);
   /// The sample itself, or the one that passOver() puts in its place.
   std::uint32_t usefulBeside(std::uint32_t sample) const {
     const std::uint32_t other = instead_.empty() ? LightMesh::kNone : instead_[sample];

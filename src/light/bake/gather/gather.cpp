@@ -14,6 +14,7 @@
 #include "light/bake/gather/rooms.h"
 #include "light/bake/samples/adaptive_probe.h"
 #include "light/bake/samples/burial_test.h"
+#include "light/bake/samples/parting_walls.h"
 #include "light/patches/angles.h"
 #include "light/shading/mirror_lobe.h"
 #include "sunlit/quantity/angle.h"
@@ -70,7 +71,7 @@ class Gatherer {
     });
     std::vector<bool> inside(count_);
     for (std::size_t i = 0; i < count_; ++i) inside[i] = exchange_.seen[i].inside;
-    exchange_.passOver(inside);
+    exchange_.passOver(inside, PartingWalls(scene_, samples_));
     const bool all = options_.bounces >= kBouncesBeforeAll;
     if (options_.bounces > 0) {
       const RoomBaker rooms(scene_, samples_, exchange_);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "light/bake/samples/burial_test.h"
+#include "light/bake/samples/wall_sides.h"
 #include "sunlit/quantity/photometry.h"
 #include "sunlit/quantity/random.h"
 
@@ -363,6 +364,7 @@ void MeshBuilder::findHanging() {
     if (cell.inner()) continue;
     for (std::size_t k = 0; k < 3; ++k) hang(cell.corner[k], cell.corner[(k + 1) % 3]);
   }
+  WallSides(&mesh, &index.nodes, &hangs_between).separate();
 }
 
 }  // namespace sunlit::light

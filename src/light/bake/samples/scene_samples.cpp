@@ -60,8 +60,12 @@ class Sampler {
     taken += foliage.receivers().size() + countCardSides();
     builder_.refine(withoutTaken(limits, taken), progress);
     sampleTrees();
+    under_way_.assign(shares_.size(), false);
+    for (std::uint32_t n = 0; n < shares_.size(); ++n) hang(n);
     fillInvalid();
-    hang();
+    // From those that have been filled.
+    for (std::uint32_t n = 0; n < shares_.size(); ++n)
+      if (!hang(n)) addSample(n);
     addCloud(small_rule, small);
     addCloud(foliage_rule, foliage);
     addCards();
@@ -130,22 +134,20 @@ class Sampler {
   }
 
   /// A node amid an undivided edge has the mean light of the edge's ends, so that light is continuous there.
-  void hang() {
-    under_way_.assign(shares_.size(), false);
-    for (std::uint32_t n = 0; n < shares_.size(); ++n) hang(n);
-  }
-  void hang(std::uint32_t n) {
-    if (!shares_[n].empty()) return;
-    if (under_way_[n]) return addSample(n);  // sheets that overlap may have it hang from itself
+  /// False: one of them has none yet, or hangs from this one, as where sheets overlap.
+  bool hang(std::uint32_t n) {
+    if (!shares_[n].empty()) return true;
+    if (under_way_[n] || builder_.hangs_between[n][0] == LightMesh::kNone) return false;
     under_way_[n] = true;
-    Shares mean;
-    for (std::uint32_t end : builder_.hangs_between[n]) {
-      hang(end);
-      mean.insert(mean.end(), shares_[end].begin(), shares_[end].end());
-    }
-    if (!shares_[n].empty()) return;
+    const auto [a, b] = builder_.hangs_between[n];
+    const bool both = hang(a) && hang(b);
+    under_way_[n] = false;
+    if (!both) return false;
+    Shares mean = shares_[a];
+    mean.insert(mean.end(), shares_[b].begin(), shares_[b].end());
     tidy(&mean);
     shares_[n] = std::move(mean);
+    return true;
   }
 
   void addSample(std::uint32_t node) {

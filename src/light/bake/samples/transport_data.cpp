@@ -68,32 +68,45 @@ const std::vector<Eigen::Vector3f>& TransportData::places(const Geometry& geomet
   return places_;
 }
 
-std::vector<std::uint32_t> LightMesh::usefulSamples(const std::vector<bool>& useless) const {
-  constexpr int kRings = 4;  // as many as SceneSamples are filled over
-  std::vector<std::uint32_t> samples(nodeCount(), kNone);
+std::vector<std::uint32_t> LightMesh::usefulSamples(const std::vector<bool>& useless,
+                                                    const Parted& parted) const {
+  std::vector<std::uint32_t> samples(nodeCount(), kNone), own(nodeCount(), kNone);
   for (std::size_t n = 0; n < nodeCount(); ++n) {
-    float most = 0.0f;
+    float most = 0.0f, most_own = 0.0f;
     for (std::uint32_t s = first_share[n]; s < first_share[n + 1]; ++s) {
-      if (useless[shares[s].sample] || shares[s].weight <= most) continue;
-      most = shares[s].weight;
-      samples[n] = shares[s].sample;
+      const Share& share = shares[s];
+      if (share.weight > most_own) most_own = share.weight, own[n] = share.sample;
+      if (useless[share.sample] || share.weight <= most) continue;
+      most = share.weight;
+      samples[n] = share.sample;
     }
   }
-  for (int ring = 0; ring < kRings; ++ring) {
-    const std::vector<std::uint32_t> before = samples;
-    for (const Cell& cell : cells) {
-      if (cell.inner()) continue;
-      for (const std::uint32_t n : cell.corner) {
-        for (const std::uint32_t from : cell.corner)
-          if (samples[n] == kNone) samples[n] = before[from];
+  const auto spread = [&](bool anywhere) {
+    constexpr int kRings = 4;  // as many as SceneSamples are filled over
+    std::vector<std::uint32_t> found = samples;
+    for (int ring = 0; ring < kRings; ++ring) {
+      const std::vector<std::uint32_t> before = found;
+      for (const Cell& cell : cells) {
+        if (cell.inner()) continue;
+        for (const std::uint32_t n : cell.corner) {
+          for (const std::uint32_t from : cell.corner) {
+            if (found[n] == kNone && before[from] != kNone && (anywhere || !parted(own[n], before[from])))
+              found[n] = before[from];
+          }
+        }
       }
     }
-  }
+    return found;
+  };
+  const std::vector<std::uint32_t> anyhow = spread(true);
+  samples = spread(false);
+  for (std::size_t n = 0; n < nodeCount(); ++n)
+    if (samples[n] == kNone) samples[n] = anyhow[n];
   return samples;
 }
 
-void LightMesh::drop(const std::vector<bool>& useless) {
-  const std::vector<std::uint32_t> useful = usefulSamples(useless);
+void LightMesh::drop(const std::vector<bool>& useless, const Parted& parted) {
+  const std::vector<std::uint32_t> useful = usefulSamples(useless, parted);
   for (std::size_t n = 0; n < nodeCount(); ++n) {
     if (useful[n] == kNone) continue;
     float sum = 0.0f;

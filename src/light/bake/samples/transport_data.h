@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -53,11 +54,14 @@ struct LightMesh {
   /// Of a point within the leaf tree of `root`, given by its barycentric coordinates.
   Place locate(std::uint32_t root, std::array<float, 3> barycentric) const;
 
+  /// Whether a sample of no use had better not be as another one.
+  using Parted = std::function<bool(std::uint32_t useless, std::uint32_t other)>;
   /// Of each node, the sample that counts most in it among those that are of use; where there is none, that
-  /// of the nearest nodes that have one, over a few cells; kNone beyond.
-  std::vector<std::uint32_t> usefulSamples(const std::vector<bool>& useless) const;
+  /// of the nearest nodes that have one, over a few cells: if any, one that it is not parted from; kNone
+  /// beyond.
+  std::vector<std::uint32_t> usefulSamples(const std::vector<bool>& useless, const Parted& parted) const;
   /// Takes samples that are of no use out of nodes; those left with none get that of usefulSamples().
-  void drop(const std::vector<bool>& useless);
+  void drop(const std::vector<bool>& useless, const Parted& parted);
 };
 
 /// Illuminance of each sample for 1 cd/m² of each sky patch, lx.
