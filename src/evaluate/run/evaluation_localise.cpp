@@ -76,6 +76,13 @@ bool areOf(const EvaluationOptions& options, const std::vector<PairRecord>& reco
   return detectors == std::set<std::string>(asked.begin(), asked.end());
 }
 
+// Also where the pair of a picture failed, as where one of several detectors throws.
+std::set<std::string> localisedStreams(const std::vector<LocalisationRow>& rows) {
+  std::set<std::string> streams;
+  for (const LocalisationRow& row : rows) streams.insert({row.map, row.query});
+  return streams;
+}
+
 }  // namespace
 
 void Evaluation::State::prepareLocalisation() {
@@ -183,7 +190,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   outcome.key_frames = result.key_frames;
   outcome.queries = result.rows.size();
   outcome.unobserved = unobserved(drives.streams, result.rows);
-  outcome.uncompared = uncompared(drives.streams, result.rows);
+  outcome.uncompared = uncompared(drives.streams, localisedStreams(result.rows));
   writeRunFile(file("run.yaml"), options_, &finished_, &outcome);
   if (result.rows.empty()) return outcome;
   localised_ = measuredOf(result.rows);
@@ -238,18 +245,16 @@ std::size_t Evaluation::State::unobserved(const ObservedStreams& streams,
   return lacking.size();
 }
 
-// What was looked at though its pair failed, as where one of several detectors throws, has rows.
+// But for those that were `found`.
 std::vector<std::string> Evaluation::State::uncompared(const ObservedStreams& streams,
-                                                       const std::vector<LocalisationRow>& rows) const {
-  std::set<std::string> compared;
-  for (const LocalisationRow& row : rows) compared.insert({row.map, row.query});
+                                                       std::set<std::string> found) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const PairRecord& record : records_)
-    compared.insert({options_.pairs[record.pair].a, options_.pairs[record.pair].b});
+    found.insert({options_.pairs[record.pair].a, options_.pairs[record.pair].b});
   std::vector<std::string> others;
   for (const auto* some : {&streams.map, &streams.queries}) {
     for (const std::string& stream : *some) {
-      if (compared.count(stream) == 0) others.push_back(stream);
+      if (found.count(stream) == 0) others.push_back(stream);
     }
   }
   return others;

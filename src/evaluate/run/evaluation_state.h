@@ -127,8 +127,7 @@ class Evaluation::State {
   bool hasForgottenObservations(const std::string& folder) const;
   bool isWholePath() const;
   std::size_t unobserved(const ObservedStreams& streams, const std::vector<LocalisationRow>& rows) const;
-  std::vector<std::string> uncompared(const ObservedStreams& streams,
-                                      const std::vector<LocalisationRow>& rows) const;
+  std::vector<std::string> uncompared(const ObservedStreams& streams, std::set<std::string> found) const;
   bool isObserved(const Work& work, std::size_t stream, std::size_t difference) const;
   void reportUnlocalised(const Work& work, std::size_t stream, const std::string& fault);
   void verifyMatched(const Work& work, const Matched& matched, Values& values) const;
