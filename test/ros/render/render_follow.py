@@ -117,6 +117,7 @@ class RenderFollow(unittest.TestCase):
         self.addCleanup(node.__exit__)
         node.line_with("Waiting for the TF frame robot")
         sender.wait_for_readers(2)
+        self.sent_s = time.monotonic()
         sender.send(robot_at(0.0, rospy.Time(2000)), *first)
         reader.wait("/a/camera/image_raw", 1)
         return node, reader, sender
@@ -149,11 +150,18 @@ class RenderFollow(unittest.TestCase):
         self.assertEqual(self.warnings(node, reader, sender), [])
 
     def test_an_optical_frame_on_a_chain_that_is_heard_in_parts_is_waited_for(self):
-        node, reader, sender = self.follow(optical_below("mast"))
-        node.line_with("TF has the frame %s below mast: it is left" % OPTICAL)
-        time.sleep(0.1)  # in which it takes a picture, and looks
-        sender.send(fixed("robot", "mast"))
-        self.assertEqual(self.warnings(node, reader, sender), [])
+        for _ in range(5):
+            node, reader, sender = self.follow(optical_below("mast"))
+            node.line_with("TF has the frame %s below mast: it is left" % OPTICAL)
+            time.sleep(0.1)  # in which it takes a picture, and looks
+            sender.send(fixed("robot", "mast"))
+            soon = time.monotonic() - self.sent_s < 0.8  # well within its patience; a busy machine may need another go
+            warnings = self.warnings(node, reader, sender)
+            if soon:
+                break
+            self.doCleanups()
+        self.assertTrue(soon, "this machine takes most of a second for a picture and two messages")
+        self.assertEqual(warnings, [])
         self.assertEqual(reader.of("/tf_static"), [])
 
     def test_an_optical_frame_that_is_not_connected_is_told_of(self):
