@@ -24,26 +24,32 @@ double imageMotion_px_s(const image::DepthImage& depth, const image::Lens& lens,
   constexpr double kFar_m = 1e6, kMoment_s = 1e-5;
   // Seen from the camera all goes the other way.
   const Eigen::Isometry3d seen_then = motion.after(kMoment_s, Eigen::Vector3d::Zero()).inverse();
-  const auto speedsOf = [&](bool sky_too, int step_px) {
-    std::vector<double> speeds;
+  // `all` null: of things alone.
+  const auto look = [&](int step_px, std::vector<double>* all, std::vector<double>* things) {
     for (int y = step_px / 2; y < depth.height; y += step_px) {
       for (int x = step_px / 2; x < depth.width; x += step_px) {
         const auto metres = static_cast<double>(*depth.at(x, y));
         const bool sky = !std::isfinite(metres);
-        if (sky && !sky_too) continue;
+        if (sky && all == nullptr) continue;
         const std::optional<Eigen::Vector3d> ray = lens.unproject({x, y});
         if (!ray) continue;
         const std::optional<Eigen::Vector2d> then =
             lens.project(seen_then * ((sky ? kFar_m : metres) * *ray));
-        if (then) speeds.push_back((*then - Eigen::Vector2d(x, y)).norm() / kMoment_s);
+        if (!then) continue;
+        const double speed = (*then - Eigen::Vector2d(x, y)).norm() / kMoment_s;
+        if (all != nullptr) all->push_back(speed);
+        if (!sky) things->push_back(speed);
       }
     }
-    return speeds;
   };
   constexpr int kStep_px = 8;
   constexpr std::size_t kFew = 200;
-  std::vector<double> all = speedsOf(true, kStep_px), things = speedsOf(false, kStep_px);
-  if (things.size() < kFew) things = speedsOf(false, 1);  // a post may stand between points that far apart
+  std::vector<double> all, things;
+  look(kStep_px, &all, &things);
+  if (things.size() < kFew) {  // a post may stand between points that far apart
+    things.clear();
+    look(1, nullptr, &things);
+  }
   // A sign before the sky is what such a picture is taken for.
   return std::max(withoutFastest(&all), withoutFastest(&things));
 }
