@@ -75,11 +75,17 @@ void feedTruth(Evaluation& evaluation, std::int64_t pose) {
   evaluation.addDepth(stampOf(pose), told(viewOf(pose).depth));
 }
 
-void feedImages(Evaluation& evaluation, std::int64_t pose) {
-  for (std::size_t s = 0; s < 3; ++s) {
+/// pictureOf(pose, stream) of the first `streams`.
+template <typename PictureOf>
+void feedImages(Evaluation& evaluation, std::int64_t pose, std::size_t streams, const PictureOf& pictureOf) {
+  for (std::size_t s = 0; s < streams; ++s) {
     evaluation.addCamera(s, told(viewOf(pose).camera));
-    evaluation.addImage(s, stampOf(pose), lit(pose, s));
+    evaluation.addImage(s, stampOf(pose), pictureOf(pose, s));
   }
+}
+
+void feedImages(Evaluation& evaluation, std::int64_t pose) {
+  feedImages(evaluation, pose, 3, lit);
 }
 
 PosedView litView(std::int64_t pose, std::size_t stream) {
@@ -446,16 +452,20 @@ TEST(EvaluationLocalise, SaysWhatIsLeftOutSinceItIsNotCompared) {
   EXPECT_EQ(found, (std::vector<std::size_t>{2, 2, 4, 4})) << "of dusk and night, by SIFT and ORB";
 }
 
+/// At all poses, with their truth.
+template <typename PictureOf>
+void feedPictures(Evaluation& evaluation, std::size_t streams, const PictureOf& pictureOf) {
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    feedImages(evaluation, pose, streams, pictureOf);
+    evaluation.waitForRoom(0);
+  }
+}
+
 TEST(EvaluationLocalise, SaysOfWhichStreamNothingWasEvaluated) {
   const TemporaryFolder folder;
   Evaluation evaluation(localising(folder), {});
-  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
-    feedTruth(evaluation, pose);
-    for (std::size_t s = 0; s < 2; ++s) {
-      evaluation.addCamera(s, told(viewOf(pose).camera));
-      evaluation.addImage(s, stampOf(pose), lit(pose, s));
-    }
-  }
+  feedPictures(evaluation, 2, lit);
   evaluation.finish();
   const LocalisationOutcome outcome = evaluation.localise({});
   EXPECT_EQ(outcome.key_frames, 2u);
@@ -484,15 +494,10 @@ EvaluationOptions moody(const TemporaryFolder& folder) {
 TEST(EvaluationLocalise, APictureThatADetectorThrowsAtCostsItsOwnPairsAlone) {
   const TemporaryFolder folder;
   Evaluation evaluation(moody(folder), {});
-  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
-    feedTruth(evaluation, pose);
-    for (std::size_t s = 0; s < 3; ++s) {
-      const bool is_marked = static_cast<std::int64_t>(s) == pose && s < 2;
-      evaluation.addCamera(s, told(viewOf(pose).camera));
-      evaluation.addImage(s, stampOf(pose), is_marked ? marked(lit(pose, s)) : lit(pose, s));
-    }
-    evaluation.waitForRoom(0);
-  }
+  feedPictures(evaluation, 3, [](std::int64_t pose, std::size_t s) {
+    const bool is_marked = static_cast<std::int64_t>(s) == pose && s < 2;
+    return is_marked ? marked(lit(pose, s)) : lit(pose, s);
+  });
   const Outcome whole = evaluation.finish();
   EXPECT_FALSE(whole.isWhole());
   std::vector<std::size_t> evaluated, failed, unlocalised;
@@ -520,14 +525,7 @@ TEST(EvaluationLocalise, APictureThatADetectorThrowsAtCostsItsOwnPairsAlone) {
 TEST(EvaluationLocalise, ADetectorThatThrowsAtAllPicturesLeavesNoStreamOut) {
   const TemporaryFolder folder;
   Evaluation evaluation(moody(folder), {});
-  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
-    feedTruth(evaluation, pose);
-    for (std::size_t s = 0; s < 3; ++s) {
-      evaluation.addCamera(s, told(viewOf(pose).camera));
-      evaluation.addImage(s, stampOf(pose), marked(lit(pose, s)));
-    }
-    evaluation.waitForRoom(0);
-  }
+  feedPictures(evaluation, 3, [](std::int64_t pose, std::size_t s) { return marked(lit(pose, s)); });
   EXPECT_FALSE(evaluation.finish().isWhole());
   const LocalisationOutcome outcome = evaluation.localise({});
   EXPECT_EQ(rowsOf(outcome, "night", "orb"), 4u);
