@@ -25,6 +25,7 @@ class Recorder:
         self.clock = recording.Clock(plan["start_stamp"], plan["frame_rate"])
         self.has_poses_left = plan["begin"] < poses
         self.process = None
+        self.earlier = set(recording.bags(output)) if self.has_poses_left else set()
         if self.has_poses_left:
             # -b 0: its buffer may grow, so that nothing is dropped. Below --min-space (1 GB by default) it would go on without
             # recording; so a full disk ends it, and the run with it. At SIGINT it closes its bag in order.
@@ -41,6 +42,14 @@ class Recorder:
         if self.process and self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
             self.process.wait()
+            self._remove_empty()
+
+    def _remove_empty(self):
+        """Of a start that is refused, or interrupted before the first pose, no bag is left in the folder."""
+        for bag in recording.bags(self.output):
+            if bag not in self.earlier and not recording.holds_poses(bag, self.topics):
+                with contextlib.suppress(OSError):
+                    os.remove(bag)
 
     def verify(self):
         """A recording that lacks an image is worse than none. Gives a line about all bags together."""

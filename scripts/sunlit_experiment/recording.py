@@ -70,6 +70,16 @@ def poses_in(bag, names, clock):
     return found
 
 
+def holds_poses(bag, names):
+    """Whether any message of a pose is in a bag, by its index; True where that cannot be read."""
+    import rosbag  # pylint: disable=import-outside-toplevel
+    try:
+        with rosbag.Bag(bag) as messages:
+            return messages.get_message_count(of_each_pose(names)) > 0
+    except (OSError, rosbag.ROSBagException, struct.error):
+        return True
+
+
 class Union:
     """What all bags of a folder hold together."""
 

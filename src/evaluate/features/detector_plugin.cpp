@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sunlit/quantity/one_line.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::evaluate {
@@ -14,7 +15,7 @@ namespace {
 const std::set<int> kNormsOfBits = {cv::NORM_HAMMING, cv::NORM_HAMMING2};
 const std::set<int> kNormsOfNumbers = {cv::NORM_L1, cv::NORM_L2};
 
-/// What `work` throws, of whatever type, as an `Error` that begins with the name.
+/// What `work` throws, of whatever type, as an `Error` of one line that begins with the name.
 template <typename Error, typename Work>
 auto named(const std::string& name, const Work& work) -> decltype(work()) {
   std::string why = "throws what is no std::exception";
@@ -26,7 +27,7 @@ auto named(const std::string& name, const Work& work) -> decltype(work()) {
     why = error.what();
   } catch (...) {
   }
-  throw Error("detector " + name + ": " + why);
+  throw Error("detector " + name + ": " + oneLine(why));
 }
 
 [[noreturn]] void fail(const std::string& what) {

@@ -77,7 +77,7 @@ class Evaluation::State {
     std::vector<std::vector<LostFeatures>> lost;
     std::vector<std::vector<cv::Mat>> drawn;         // empty where nothing is drawn
     std::vector<std::optional<std::string>> faults;  // of pairs that could not be compared
-    std::map<std::size_t, std::string> unobserved;   // by stream: why one of its detectors has nothing
+    std::map<std::size_t, std::string> unobserved;   // by stream: which of its detectors have nothing, and why
     std::vector<std::vector<char>> is_featureless;   // [stream][difference]
   };
 

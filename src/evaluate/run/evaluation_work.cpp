@@ -74,7 +74,9 @@ Evaluation::State::Values Evaluation::State::compare(const Work& work) const {
   for (std::size_t d = 0; d < compared.image_faults.size(); ++d) {
     for (std::size_t s = 0; s < work.images.size(); ++s) {
       const auto fault = faultOf(compared.image_faults[d][s]);
-      if (fault && isObserved(work, s, d)) values.unobserved.emplace(s, *fault);
+      if (!fault || !isObserved(work, s, d)) continue;
+      std::string& why = values.unobserved[s];
+      why += (why.empty() ? "" : "; ") + layout_.differences[d] + ": " + *fault;
     }
   }
   return values;

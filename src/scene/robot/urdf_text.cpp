@@ -7,6 +7,8 @@
 
 #include <stdexcept>
 
+#include "sunlit/quantity/one_line.h"
+
 namespace sunlit::scene {
 namespace {
 
@@ -28,13 +30,6 @@ class Listener : public console_bridge::OutputHandler {
 
   std::vector<std::string> errors, warnings;
 };
-
-std::string oneLine(std::string text) {
-  for (char& letter : text) {
-    if (letter == '\n') letter = ' ';
-  }
-  return text;
-}
 
 }  // namespace
 

@@ -435,11 +435,13 @@ class ExperimentRuns(unittest.TestCase):
             return {os.path.join(folder, name): self.bytes_of(folder, name)
                     for folder, _, names in os.walk(self.output) for name in names}
         before = files()
-        refused = small_experiment(self.output, hours="[10, 13]")
-        self.assertNotEqual(refused.end(), 0)
-        self.assertIn("this folder holds a run with another setting", refused.said())
-        after = files()
-        self.assertEqual([name for name in before.keys() | after.keys() if before.get(name) != after.get(name)], [])
+        # A recorder begins before the evaluator has looked at the folder.
+        for recorded in ("false", "true"):
+            refused = small_experiment(self.output, hours="[10, 13]", record=recorded)
+            self.assertNotEqual(refused.end(), 0)
+            self.assertIn("this folder holds a run with another setting", refused.said())
+            after = files()
+            self.assertEqual([name for name in before.keys() | after.keys() if before.get(name) != after.get(name)], [])
 
     def test_ctrl_c_is_a_failure_too_and_leaves_nothing_running(self):
         run = small_experiment(os.path.join(self.folder, "interrupted"), verbose="true", **LONG)

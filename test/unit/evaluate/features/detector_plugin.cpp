@@ -23,6 +23,7 @@ class Made : public DetectorPlugin {
   }
   std::vector<cv::KeyPoint> detect(const cv::Mat&) override {
     if (fault_ == "throws") throw std::runtime_error("out of ideas");
+    if (fault_ == "throws lines") throw std::runtime_error("out\nof\t\x1b ideas µ");
     if (fault_ == "throws a number") throw 7;
     return {cv::KeyPoint(fault_ == "nan" ? NAN : static_cast<float>(x_), 2.0F, 1.0F)};
   }
@@ -90,6 +91,7 @@ TEST(DetectorPlugin, IsRefusedByOneLineWhereItBreaksARule) {
   const std::string who = "detector mine/Made: ";
   const std::string outside = "), outside the picture of 8×5 px";
   EXPECT_EQ(says("throws"), who + "out of ideas");
+  EXPECT_EQ(says("throws lines"), who + "out of   ideas µ") << "in one line";
   EXPECT_EQ(says("throws a number"), who + "throws what is no std::exception");
   EXPECT_EQ(says("nan"), who + "gives the key point (nan, 2" + outside);
   EXPECT_EQ(says("", 7.5), who + "gives the key point (7.5, 2" + outside);

@@ -511,8 +511,8 @@ TEST(EvaluationLocalise, APictureThatADetectorThrowsAtCostsItsOwnPairsAlone) {
   EXPECT_EQ(unlocalised, (std::vector<std::size_t>{1, 1, 0}));
   const std::string problems = contentOf(folder.file("out/problems.csv"));
   for (const char* line : {"failed,0,500.000000000,noon-dusk,", "failed,0,500.000000000,noon-night,",
-                           "unlocalised,0,500.000000000,noon,", "failed,1,500.100000000,noon-dusk,",
-                           "failed,1,500.100000000,dusk-night,", "unlocalised,1,500.100000000,dusk,"})
+                           "unlocalised,0,500.000000000,noon,moody: ", "failed,1,500.100000000,noon-dusk,",
+                           "failed,1,500.100000000,dusk-night,", "unlocalised,1,500.100000000,dusk,moody: "})
     EXPECT_TRUE(hasLine(problems, line + std::string(kMood))) << line << "\n" << problems;
   const LocalisationOutcome outcome = evaluation.localise({});
   EXPECT_EQ(outcome.key_frames, 2u);
@@ -520,6 +520,20 @@ TEST(EvaluationLocalise, APictureThatADetectorThrowsAtCostsItsOwnPairsAlone) {
   EXPECT_EQ(rowsOf(outcome, "dusk", "orb"), 4u) << "what the other detector finds there is kept";
   EXPECT_EQ(rowsOf(outcome, "night", "moody"), 4u) << "and what is found in the others";
   EXPECT_EQ(rowsOf(outcome, "night", "orb"), 4u);
+}
+
+TEST(EvaluationLocalise, EachDetectorThatThrowsAtAPictureIsNamed) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = moody(folder);
+  options.comparer.known.add("gloomy", makeFeatureDifference(moodyDetector()));
+  options.comparer.differences = {"moody", "gloomy", "orb"};
+  options.localisation.detectors = options.comparer.differences;
+  Evaluation evaluation(options, {});
+  feedPictures(evaluation, 1, [](std::int64_t pose, std::size_t s) { return marked(lit(pose, s)); });
+  EXPECT_FALSE(evaluation.finish().isWhole());
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  const std::string both = "moody: " + std::string(kMood) + "; gloomy: " + kMood;
+  EXPECT_TRUE(hasLine(problems, "unlocalised,0,500.000000000,noon," + both)) << problems;
 }
 
 TEST(EvaluationLocalise, ADetectorThatThrowsAtAllPicturesLeavesNoStreamOut) {
