@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "light/bake/samples/burial_test.h"
+#include "light/bake/samples/sheet_sides.h"
+#include "light/bake/samples/wall_cuts.h"
 #include "light/bake/samples/wall_sides.h"
 #include "sunlit/quantity/photometry.h"
 #include "sunlit/quantity/random.h"
@@ -13,7 +16,6 @@
 namespace sunlit::light {
 namespace {
 
-constexpr float kInwards_m = 0.02f;  ///< of a receiver on an open edge, away from the edge
 /// Longest edge of a cell, in harmonic mean distances of what its corners see.
 constexpr float kReachShare = 0.6f;
 /// Longest edge of a cell, in distances of the closest thing that its corners see.
@@ -40,49 +42,7 @@ std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 
-std::uint64_t placeKey(const Eigen::Vector3f& position) {
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto step = static_cast<std::int64_t>(std::lround(static_cast<double>(position[axis]) * 1000.0));
-    key = scrambled(key ^ static_cast<std::uint64_t>(step));
-  }
-  return key;
-}
-
 }  // namespace
-
-Receiver MeshNode::receiver() const {
-  const Eigen::Vector3f pull = inwards * (kInwards_m / static_cast<float>(std::max(cells, 1)));
-  const Eigen::Vector3f origin = position + pull;
-  Receiver receiver;
-  receiver.origins.fill(origin);
-  receiver.lifts.fill(Receiver::clearance_m(origin) * (face.isZero() ? normal : face));
-  receiver.normal = normal;
-  receiver.face = face;
-  return receiver;
-}
-
-std::uint32_t NodeIndex::at(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
-                            const Eigen::Vector3f& face) {
-  const Eigen::Vector3f bounding = boundingFace(normal, face);
-  const auto added = static_cast<std::uint32_t>(nodes.size());
-  const auto [entry, fresh] = first_.try_emplace(placeKey(position), added);
-  std::uint32_t last = entry->second;
-  if (!fresh) {
-    for (std::uint32_t at = entry->second; at != LightMesh::kNone; at = next_[at]) {
-      if (nodes[at].normal.dot(normal) > kSharedCosine && sameFace(nodes[at].face, bounding)) return at;
-      last = at;
-    }
-    next_[last] = added;
-  }
-  MeshNode node;
-  node.position = position;
-  node.normal = normal;
-  node.face = bounding;
-  nodes.push_back(node);
-  next_.push_back(LightMesh::kNone);
-  return added;
-}
 
 MeshBuilder::MeshBuilder(const BakeScene& scene, const ShiningSurfaces& shining)
     : geometry_(scene.geometry),
@@ -119,24 +79,17 @@ void MeshBuilder::plant(std::uint32_t triangle, int side) {
 
 void MeshBuilder::addLeaf(std::uint32_t number) {
   const LightMesh::Cell& cell = mesh.cells[number];
-  Eigen::Vector3f centre = Eigen::Vector3f::Zero();
-  for (std::uint32_t node : cell.corner) centre += index.nodes[node].position / 3.0f;
-  for (std::uint32_t n : cell.corner) {
-    MeshNode& node = index.nodes[n];
-    node.inwards += (centre - node.position).normalized();
-    ++node.cells;
-  }
+  const Eigen::Vector3f middle = middleOf(cell, index.nodes);
+  for (const std::uint32_t n : cell.corner) index.nodes[n].pullTowards(middle);
   active_.push_back(number);
 }
 
-/// From those nodes that have not yet.
-void MeshBuilder::lookAround() {
+void MeshBuilder::lookAround(const std::vector<std::uint32_t>& from) {
   std::vector<MeshNode>& nodes = index.nodes;
-  const std::size_t first_node = looked_;
-  const std::size_t packets = (nodes.size() - first_node + kNodesAtOnce - 1) / kNodesAtOnce;
+  const std::size_t packets = (from.size() + kNodesAtOnce - 1) / kNodesAtOnce;
   tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
-    const std::size_t begin = first_node + p * kNodesAtOnce;
-    const int count = static_cast<int>(std::min(kNodesAtOnce, nodes.size() - begin));
+    const std::size_t begin = p * kNodesAtOnce;
+    const int count = static_cast<int>(std::min(kNodesAtOnce, from.size() - begin));
     std::array<Receiver, kNodesAtOnce> receivers;
     std::array<float, kNodesAtOnce> all{}, near{}, nearest;
     std::array<BurialTest, kNodesAtOnce> burials;
@@ -144,7 +97,7 @@ void MeshBuilder::lookAround() {
     open.fill(Eigen::Vector4f::Zero());
     nearest.fill(1e9f);
     for (int i = 0; i < count; ++i)
-      receivers[static_cast<std::size_t>(i)] = nodes[begin + static_cast<std::size_t>(i)].receiver();
+      receivers[static_cast<std::size_t>(i)] = nodes[from[begin + static_cast<std::size_t>(i)]].receiver();
     probe(rays_, directions_, {receivers.data(), count},
           [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
             const auto i = static_cast<std::size_t>(lane);
@@ -162,18 +115,24 @@ void MeshBuilder::lookAround() {
               nearest[i] = std::min(nearest[i], hits.distance[i]);
           });
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      MeshNode& node = nodes[begin + i];
+      MeshNode& node = nodes[from[begin + i]];
       node.valid = !burials[i].buried();
       node.reach_m = near[i] > 0.0f ? all[i] / near[i] : 1e9f;
       node.nearest_m = nearest[i];
       if (all[i] > 0.0f) node.open = open[i] / all[i];
       if (!shining_.any()) continue;
-      const ShiningSurfaces::Light light = shining_.at(receivers[i], begin + i);
+      const ShiningSurfaces::Light light = shining_.at(receivers[i], from[begin + i]);
       node.shone_lx = LinearRgb(light.above + light.below).luminance();
       node.shining_m = light.distance_m;
     }
   });
-  for (; looked_ < nodes.size(); ++looked_) valid_ += nodes[looked_].valid ? 1 : 0;
+}
+
+void MeshBuilder::lookAroundFromNew() {
+  std::vector<std::uint32_t> fresh(index.nodes.size() - looked_);
+  std::iota(fresh.begin(), fresh.end(), static_cast<std::uint32_t>(looked_));
+  lookAround(fresh);
+  for (; looked_ < index.nodes.size(); ++looked_) valid_ += index.nodes[looked_].valid ? 1 : 0;
 }
 
 /// By how much light differs between the corners, all of them valid, in steps that may be interpolated.
@@ -233,7 +192,6 @@ float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m, Pass pas
 
 /// Whether a wall stands between the corners of a small cell: light on both its sides would be mixed there.
 bool MeshBuilder::cut(const LightMesh::Cell& cell, float finest_m) const {
-  constexpr float kAbove_m = 0.03f;  // over bumps of the ground
   float longest = 0.0f, nearest = 1e9f;
   for (std::size_t k = 0; k < 3; ++k) {
     const MeshNode& node = index.nodes[cell.corner[k]];
@@ -246,9 +204,7 @@ bool MeshBuilder::cut(const LightMesh::Cell& cell, float finest_m) const {
   for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
     const MeshNode& from = index.nodes[cell.corner[i % 3]];
     const MeshNode& to = index.nodes[cell.corner[(i + 1) % 3]];
-    const Eigen::Vector3f origin = from.position + kAbove_m * from.normal;
-    const Eigen::Vector3f way = to.position + kAbove_m * to.normal - origin;
-    packet.set(i, origin, way, i < 3);
+    packet.set(i, from.aboveBumps(), to.aboveBumps() - from.aboveBumps(), i < 3);
   }
   rays_.cast(packet, &hits);
   for (int i = 0; i < 3; ++i) {
@@ -265,8 +221,7 @@ std::uint32_t MeshBuilder::middle(std::uint32_t a, std::uint32_t b) {
     const MeshNode& to = index.nodes[b];
     const Eigen::Vector3f position = 0.5f * (from.position + to.position);
     const Eigen::Vector3f normal = (from.normal + to.normal).normalized();
-    const auto faceOf = [](const MeshNode& node) { return node.face.isZero() ? node.normal : node.face; };
-    entry->second = index.at(position, normal, (faceOf(from) + faceOf(to)).normalized());
+    entry->second = index.at(position, normal, (from.flat() + to.flat()).normalized());
   }
   return entry->second;
 }
@@ -291,7 +246,7 @@ void MeshBuilder::split(std::uint32_t number) {
   const auto child = static_cast<std::uint32_t>(mesh.cells.size());
   mesh.cells.push_back({{from, between, apex}});
   mesh.cells.push_back({{between, to, apex}});
-  mesh.cells[number].corner = {LightMesh::kInner | child, static_cast<std::uint32_t>(longest), 0};
+  mesh.cells[number] = LightMesh::Cell::divided(child, longest, 0.5f);
   addLeaf(child);
   addLeaf(child + 1);
 }
@@ -305,13 +260,15 @@ void MeshBuilder::refine(const RefineLimits& limits, const std::function<void(do
   }
   for (const Pass pass : {Pass::kVaried, Pass::kAll}) {
     while (!active_.empty()) {
-      lookAround();
+      lookAroundFromNew();
       progress(std::min(1.0, static_cast<double>(valid_) / static_cast<double>(limits.nodes)));
       halveMostUrgent(limits, pass);
     }
     active_.swap(left_);
   }
+  separateSides();
   findHanging();
+  WallSides(&mesh, &index.nodes, &hangs_between).separate();
 }
 
 void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
@@ -348,11 +305,43 @@ void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
   for (const Split& s : splits) split(s.cell);
 }
 
+/// Of walls and sheets that cells go through, or end at.
+void MeshBuilder::separateSides() {
+  const BakeScene scene{geometry_, rays_, traits_};
+  std::vector<std::uint32_t> changed = WallCuts(scene, &mesh, &index.nodes).cut();
+  const std::vector<std::uint32_t> sides = SheetSides(scene, &mesh, &index.nodes).separate();
+  has_sides_.resize(index.nodes.size());
+  for (const std::uint32_t n : sides) has_sides_[n] = true;
+  changed.insert(changed.end(), sides.begin(), sides.end());
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  pullByOwnCells(changed);
+  lookAround(changed);
+  looked_ = index.nodes.size();
+}
+
+/// By their size: what is left of a cell before a wall would pull a node through it.
+void MeshBuilder::pullByOwnCells(const std::vector<std::uint32_t>& nodes) {
+  std::vector<bool> wanted(index.nodes.size());
+  for (const std::uint32_t n : nodes) {
+    index.nodes[n].pullNoMore();
+    wanted[n] = true;
+  }
+  for (const LightMesh::Cell& cell : mesh.cells) {
+    if (cell.inner()) continue;
+    const Eigen::Vector3f middle = middleOf(cell, index.nodes);
+    for (const std::uint32_t n : cell.corner)
+      if (wanted[n]) index.nodes[n].pullTowards(middle, (middle - index.nodes[n].position).norm());
+  }
+}
+
 void MeshBuilder::hang(std::uint32_t a, std::uint32_t b) {
+  // Of a sheet's two sides, nothing tells on which one the middle has its cells.
+  if (has_sides_[a] || has_sides_[b]) return;
   const auto entry = middles_.find(pairKey(a, b));
   if (entry == middles_.end()) return;
   const std::uint32_t between = entry->second;
-  if (hangs_between[between][0] != LightMesh::kNone) return;
+  if (has_sides_[between] || hangs_between[between][0] != LightMesh::kNone) return;
   hangs_between[between] = {a, b};
   hang(a, between);
   hang(between, b);
@@ -364,7 +353,6 @@ void MeshBuilder::findHanging() {
     if (cell.inner()) continue;
     for (std::size_t k = 0; k < 3; ++k) hang(cell.corner[k], cell.corner[(k + 1) % 3]);
   }
-  WallSides(&mesh, &index.nodes, &hangs_between).separate();
 }
 
 }  // namespace sunlit::light

@@ -20,11 +20,11 @@ void visitLeaves(const LightMesh& mesh, std::uint32_t at, const Eigen::Matrix3f&
   }
   const auto k = static_cast<Eigen::Index>(cell.corner[1]);
   const Eigen::Vector3f from = corners.col(k), to = corners.col((k + 1) % 3), apex = corners.col((k + 2) % 3);
-  const Eigen::Vector3f middle = 0.5f * (from + to);
+  const Eigen::Vector3f point = cell.point(from, to);
   Eigen::Matrix3f child;
-  child << from, middle, apex;
+  child << from, point, apex;
   visitLeaves(mesh, cell.child(), child, visit);
-  child << middle, to, apex;
+  child << point, to, apex;
   visitLeaves(mesh, cell.child() + 1, child, visit);
 }
 

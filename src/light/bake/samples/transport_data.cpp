@@ -18,10 +18,11 @@ LightMesh::Place LightMesh::locate(std::uint32_t root, std::array<float, 3> bary
     const float from = barycentric[k];
     const float to = barycentric[(k + 1) % 3];
     const float apex = barycentric[(k + 2) % 3];
-    // The children are (from, middle, apex) and (middle, to, apex).
-    const bool first = from >= to;
-    barycentric = first ? std::array<float, 3>{from - to, 2.0f * to, apex}
-                        : std::array<float, 3>{2.0f * from, to - from, apex};
+    // The children are (from, point, apex) and (point, to, apex).
+    const float before = cells[at].share(), after = 1.0f - before;
+    const bool first = from * before >= to * after;
+    barycentric = first ? std::array<float, 3>{from - to * (after / before), to / before, apex}
+                        : std::array<float, 3>{from / after, to - from * (before / after), apex};
     at = cells[at].child() + (first ? 0u : 1u);
   }
   return {cells[at].corner, barycentric};
@@ -59,9 +60,9 @@ const std::vector<Eigen::Vector3f>& TransportData::places(const Geometry& geomet
         const std::size_t k = cell.corner[1];
         const Eigen::Vector3f &from = part.corners[k], &to = part.corners[(k + 1) % 3],
                               &apex = part.corners[(k + 2) % 3];
-        const Eigen::Vector3f middle = 0.5f * (from + to);
-        parts.push_back({cell.child(), {from, middle, apex}});
-        parts.push_back({cell.child() + 1, {middle, to, apex}});
+        const Eigen::Vector3f point = cell.point(from, to);
+        parts.push_back({cell.child(), {from, point, apex}});
+        parts.push_back({cell.child() + 1, {point, to, apex}});
       }
     }
   });

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -17,19 +18,35 @@
 namespace sunlit::light {
 
 /// Places on the scene's triangles. Each side of a triangle that can be lit has a tree of cells: the
-/// triangle, halved again and again at its longest edge. At the corners of the leaves lie nodes, between
-/// which light is interpolated; a node's light is that of one or several samples.
+/// triangle, halved again and again at its longest edge, and cut along walls at last. At the corners of the
+/// leaves lie nodes, between which light is interpolated; a node's light is that of one or several samples.
 struct LightMesh {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kSealed = 0xfffffffeu;
   static constexpr std::uint32_t kInner = 0x80000000u;
 
-  /// Leaf: three nodes. Inner cell: kInner | first of its two children, and which edge was halved (0 … 2,
-  /// from that corner to the next).
+  /// Leaf: three nodes. Inner cell: kInner | first of its two children, which edge was divided (0 … 2, from
+  /// that corner to the next), and the bits of the share of it that lies before the dividing point; 0: half.
   struct Cell {
     std::array<std::uint32_t, 3> corner;
+
+    /// Into (from, point, apex) and (point, to, apex); `share` above 0 and below 1.
+    static Cell divided(std::uint32_t child, std::size_t edge, float share) {
+      Cell cell{{kInner | child, static_cast<std::uint32_t>(edge), 0}};
+      if (share != 0.5f) std::memcpy(&cell.corner[2], &share, sizeof share);
+      return cell;
+    }
     bool inner() const { return (corner[0] & kInner) != 0; }
     std::uint32_t child() const { return corner[0] & ~kInner; }
+    float share() const {
+      float share = 0.5f;
+      if (corner[2] != 0) std::memcpy(&share, &corner[2], sizeof share);
+      return share;
+    }
+    /// Where its edge is divided, whose ends are these.
+    Eigen::Vector3f point(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const {
+      return from + share() * (to - from);
+    }
   };
   struct Share {
     std::uint32_t sample;

@@ -33,6 +33,13 @@ struct TriangleTraits {
   bool sealed[2] = {false, false};
 };
 
+/// What a bake works on.
+struct BakeScene {
+  const Geometry& geometry;
+  const BakeRays& rays;
+  const std::vector<TriangleTraits>& traits;
+};
+
 /// Parallel; the same for any number of threads.
 std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeRays& rays);
 

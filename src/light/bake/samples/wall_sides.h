@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "light/bake/samples/mesh_builder.h"
+#include "light/bake/samples/mesh_nodes.h"
 #include "light/bake/samples/transport_data.h"
 
 namespace sunlit::light {

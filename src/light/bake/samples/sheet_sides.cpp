@@ -1,0 +1,116 @@
+#include "light/bake/samples/sheet_sides.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace sunlit::light {
+
+SheetSides::SheetSides(const BakeScene& scene, LightMesh* mesh, std::vector<MeshNode>* nodes)
+    : scene_(scene), mesh_(mesh), nodes_(nodes) {}
+
+std::vector<std::uint32_t> SheetSides::separate() {
+  findCells();
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < around_.size(); ++i) {
+    if (i == 0 || around_[i].node != around_[i - 1].node) groups.push_back({i, i, {}});
+    groups.back().end = i + 1;
+  }
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) { findSides(&groups[g]); });
+  std::vector<std::uint32_t> found;
+  for (const Group& group : groups) {
+    const std::uint32_t sides = 1 + *std::max_element(group.sides.begin(), group.sides.end());
+    if (sides == 1) continue;
+    const std::uint32_t node = around_[group.begin].node;
+    std::vector<std::uint32_t> own = {node};
+    const MeshNode copy = (*nodes_)[node];
+    for (; own.size() < sides; nodes_->push_back(copy))
+      own.push_back(static_cast<std::uint32_t>(nodes_->size()));
+    found.insert(found.end(), own.begin(), own.end());
+    for (std::size_t i = group.begin; i < group.end; ++i) {
+      LightMesh::Cell& cell = mesh_->cells[around_[i].cell];
+      const std::uint32_t of_side = own[group.sides[i - group.begin]];
+      std::replace(cell.corner.begin(), cell.corner.end(), node, of_side);
+    }
+  }
+  return found;
+}
+
+/// Where something is near enough to stand on a node.
+void SheetSides::findCells() {
+  std::vector<char> near(nodes_->size(), 0);
+  for (const LightMesh::Cell& cell : mesh_->cells) {
+    if (cell.inner() || !isNear(cell)) continue;
+    for (const std::uint32_t n : cell.corner) near[n] = 1;
+  }
+  for (std::uint32_t c = 0; c < mesh_->cells.size(); ++c) {
+    if (mesh_->cells[c].inner()) continue;
+    for (const std::uint32_t n : mesh_->cells[c].corner)
+      if (near[n] != 0) around_.push_back({n, c});
+  }
+  std::sort(around_.begin(), around_.end());
+}
+
+bool SheetSides::isNear(const LightMesh::Cell& cell) const {
+  float longest_m = 0.0f, nearest_m = 1e9f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeshNode &here = (*nodes_)[cell.corner[k]], &next = (*nodes_)[cell.corner[(k + 1) % 3]];
+    longest_m = std::max(longest_m, (next.position - here.position).norm());
+    nearest_m = std::min(nearest_m, here.nearest_m);
+  }
+  return nearest_m < 2.0f * longest_m;
+}
+
+/// A point of a cell near one of its corners, and as much above it.
+Eigen::Vector3f SheetSides::within(const Around& around) const {
+  constexpr float kMost_m = 4e-3f;  // lest what stands beside the node is between the points
+  const MeshNode& node = (*nodes_)[around.node];
+  const Eigen::Vector3f way = middleOf(mesh_->cells[around.cell], *nodes_) - node.position;
+  const float away_m = std::min(kMost_m, 0.5f * way.norm());
+  return node.position + std::max(away_m, Receiver::clearance_m(node.position)) * node.flat() +
+         away_m * way.normalized();
+}
+
+/// What lies within a body is seen by nobody: no side of its own.
+bool SheetSides::isSheet(const TriangleTraits& triangle) {
+  return !isLeaf(triangle.kind) && !triangle.solid;
+}
+
+/// Cells whose points see each other are on one side, and so is what sees one of these.
+void SheetSides::findSides(Group* group) const {
+  const std::size_t count = group->end - group->begin;
+  std::vector<std::uint32_t>& sides = group->sides;
+  sides.resize(count);
+  std::iota(sides.begin(), sides.end(), 0u);
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = group->begin; i < group->end; ++i) points.push_back(within(around_[i]));
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t first = i + 1; first < count; first += kPacket) {
+      RayPacket packet;
+      HitPacket hits;
+      for (std::size_t lane = 0; lane < kPacket; ++lane) {
+        const std::size_t j = std::min(first + lane, count - 1);
+        packet.set(lane, points[i], points[j] - points[i], first + lane < count && sides[j] != sides[i]);
+      }
+      scene_.rays.cast(packet, &hits);
+      for (std::size_t lane = 0; lane < kPacket && first + lane < count; ++lane) {
+        const std::size_t j = first + lane;
+        if (sides[j] == sides[i]) continue;
+        const std::uint32_t hit = hits.triangle[lane];
+        if (hit != HitPacket::kNothing && hits.distance[lane] < 1.0f && isSheet(scene_.traits[hit])) continue;
+        const std::uint32_t joined = sides[j];
+        std::replace(sides.begin(), sides.end(), joined, sides[i]);
+      }
+    }
+  }
+  // 0, 1, … in their order.
+  std::vector<std::uint32_t> seen;
+  for (std::uint32_t& side : sides) {
+    const auto at = std::find(seen.begin(), seen.end(), side) - seen.begin();
+    if (at == std::distance(seen.begin(), seen.end())) seen.push_back(side);
+    side = static_cast<std::uint32_t>(at);
+  }
+}
+
+}  // namespace sunlit::light

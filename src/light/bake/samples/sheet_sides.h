@@ -1,0 +1,46 @@
+/// Nodes that sheets stand on.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "light/bake/samples/mesh_nodes.h"
+#include "light/bake/samples/transport_data.h"
+#include "light/bake/samples/triangle_kinds.h"
+
+namespace sunlit::light {
+
+/// A node where a sheet meets the ground has cells on both sides of it, and would give both the light of one.
+/// It becomes one node for each side.
+class SheetSides {
+ public:
+  /// Keeps references and pointers.
+  SheetSides(const BakeScene& scene, LightMesh* mesh, std::vector<MeshNode>* nodes);
+  /// All those that come of nodes with two sides or more.
+  std::vector<std::uint32_t> separate();
+
+ private:
+  struct Around {
+    std::uint32_t node, cell;
+    bool operator<(const Around& other) const {
+      return node != other.node ? node < other.node : cell < other.cell;
+    }
+  };
+  /// Cells about one node, and the side that each is on.
+  struct Group {
+    std::size_t begin, end;  ///< into around_
+    std::vector<std::uint32_t> sides;
+  };
+  void findCells();
+  bool isNear(const LightMesh::Cell& cell) const;
+  static bool isSheet(const TriangleTraits& triangle);
+  void findSides(Group* group) const;
+  Eigen::Vector3f within(const Around& around) const;
+
+  BakeScene scene_;
+  LightMesh* mesh_;
+  std::vector<MeshNode>* nodes_;
+  std::vector<Around> around_;
+};
+
+}  // namespace sunlit::light
