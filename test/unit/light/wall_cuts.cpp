@@ -117,6 +117,23 @@ TEST(WallCuts, PartWhatLiesOnBothSidesOfASheet) {
   }
 }
 
+TEST(WallCuts, FollowTwoSheetsThatMeetInACell) {
+  Ground ground({{-0.1f, -0.06f}, {0.12f, -0.05f}, {0.01f, 0.13f}});
+  ground.mesh.cells.push_back({{0, 1, 2}});
+  const Eigen::Vector2f corner(0.01f, 0.02f);
+  ground.addSheet(corner, {-0.5f, 0.22f});
+  ground.addSheet(corner, {0.5f, 0.22f});
+  ground.cut();
+  ground.with([&](const BakeScene& scene) { SheetSides(scene, &ground.mesh, &ground.nodes).separate(); });
+  pullAll(&ground);
+  const Found found = locateAll(ground, [&](const Eigen::Vector2f& place) {
+    const Eigen::Vector2f way = place - corner;
+    return way.y() > (0.2f / 0.51f) * -way.x() && way.y() > (0.2f / 0.49f) * way.x();
+  });
+  EXPECT_EQ(found.on_the_wrong_side, 0);
+  EXPECT_LT(found.farthest_off_m, 1e-5f);
+}
+
 TEST(WallCuts, LeaveCellsBesideAWallAsTheyAre) {
   Ground ground({{0.1f, 0.0f}, {0.3f, 0.0f}, {0.1f, 0.2f}});
   ground.mesh.cells.push_back({{0, 1, 2}});

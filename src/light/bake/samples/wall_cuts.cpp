@@ -11,6 +11,11 @@ constexpr float kRoom_m = 0.01f;  // between two sheets: there may be a room
 constexpr float kOnIt_m = 1e-3f;  // nodes so near to a sheet lie on it: see SheetSides
 constexpr std::size_t kEdgesAtOnce = kPacket / 2;
 
+template <typename Cuts>
+std::ptrdiff_t countOf(const Cuts& cuts) {
+  return 3 - std::count(cuts.begin(), cuts.end(), nullptr);
+}
+
 }  // namespace
 
 WallCuts::WallCuts(const BakeScene& scene, LightMesh* mesh, std::vector<MeshNode>* nodes)
@@ -20,7 +25,7 @@ std::vector<std::uint32_t> WallCuts::cut() {
   constexpr int kMostPasses = 4;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     findCrossings();
-    if (!divideRooms()) break;
+    if (!divideRooms() && !divideCorners()) break;
   }
   for (Crossing& crossing : crossings_) {
     crossing.before = addNode(crossing.edge, crossing.into);
@@ -28,8 +33,7 @@ std::vector<std::uint32_t> WallCuts::cut() {
   }
   visitLeaves([&](std::uint32_t c) {
     const Cuts cuts = cutsOf(mesh_->cells[c]);
-    if (std::any_of(cuts.begin(), cuts.end(), [](const Crossing* one) { return one != nullptr; }))
-      cut(c, cuts);
+    if (countOf(cuts) > 0) cut(c, cuts);
   });
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
@@ -76,6 +80,60 @@ void WallCuts::divideRooms(std::uint32_t cell) {
     divideRooms(child + 1);
     return;
   }
+}
+
+/// A cut is straight: where two walls meet in a cell, it gets a node there. Returns whether one did.
+bool WallCuts::divideCorners() {
+  bool any = false;
+  visitLeaves([&](std::uint32_t c) { any = divideCorner(c) || any; });
+  return any;
+}
+
+bool WallCuts::divideCorner(std::uint32_t cell) {
+  const Cuts cuts = cutsOf(mesh_->cells[cell]);
+  if (countOf(cuts) != 2) return false;
+  const std::size_t k = firstCut(cuts);
+  const std::optional<Eigen::Vector3f> weights = cornerWithin(cell, k, cuts);
+  if (!weights) return false;
+  const auto [from, to, apex] = cornersFrom(cell, k);
+  // Behind it lies a point of the edge that is not cut.
+  const float onwards = (*weights)[2] / ((*weights)[1] + (*weights)[2]), before = 1.0f - (*weights)[0];
+  const std::uint32_t behind = addNode({to, apex}, onwards), corner = addNode({from, behind}, before);
+  for (const std::uint32_t n : {behind, corner}) (*nodes_)[n].nearest_m = 0.0f;
+  const std::uint32_t child = divide(cell, (k + 1) % 3, onwards);  // (to, behind, from), (behind, apex, from)
+  const std::uint32_t first = divide(child, 1, (*weights)[0]);     // (behind, corner, to), (corner, from, to)
+  const std::uint32_t second = divide(child + 1, 2, before);  // (from, corner, apex), (corner, behind, apex)
+  setLeaf(first, {behind, corner, to});
+  setLeaf(first + 1, {corner, from, to});
+  setLeaf(second, {from, corner, apex});
+  setLeaf(second + 1, {corner, behind, apex});
+  return true;
+}
+
+/// Weights of the cell's corners, from its corner `k` on, for the place where the walls meet that this one
+/// sees along both its edges; if that is within the cell.
+std::optional<Eigen::Vector3f> WallCuts::cornerWithin(std::uint32_t cell, std::size_t k,
+                                                      const Cuts& cuts) const {
+  constexpr double kLeast = 0.02, kFlat = 0.1;
+  constexpr float kSameWall = 0.9f;  // cosine
+  const auto corners = cornersFrom(cell, k);
+  const auto wallOf = [&](const Crossing& crossing) {
+    return scene_.geometry.planes[crossing.walls[crossing.edge.first == corners[0] ? 0 : 1]];
+  };
+  const scene::Plane one = wallOf(*cuts[k]), other = wallOf(*cuts[(k + 2) % 3]);
+  if (std::abs(one.normal.dot(other.normal)) > kSameWall) return std::nullopt;
+  // Heights of the corners above both walls are to be 0, and weights to sum to 1.
+  Eigen::Matrix3d heights;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Eigen::Vector3d at = (*nodes_)[corners[static_cast<std::size_t>(i)]].position.cast<double>();
+    heights.col(i) << one.normal.cast<double>().dot(at) - one.offset,
+        other.normal.cast<double>().dot(at) - other.offset, 1.0;
+  }
+  const double scale = heights.topRows<2>().norm();
+  if (std::abs(heights.determinant()) < kFlat * kLeast * scale * scale) return std::nullopt;
+  const Eigen::Vector3d weights = heights.inverse() * Eigen::Vector3d::UnitZ();
+  if (weights.minCoeff() < kLeast) return std::nullopt;
+  return weights.cast<float>();
 }
 
 /// Those near enough to something for a wall to stand on them.
@@ -125,6 +183,7 @@ void WallCuts::findWalls(std::vector<Crossing>* crossings) const {
       if (std::max(beside, out_of - into) * way.norm() < kOnIt_m) continue;
       crossing.into = into;
       crossing.out_of = out_of;
+      crossing.walls = {hits.triangle[2 * i], hits.triangle[2 * i + 1]};
       const auto isSheet = [&](std::size_t lane) { return !scene_.traits[hits.triangle[lane]].solid; };
       crossing.is_room = isSheet(2 * i) && isSheet(2 * i + 1) && (out_of - into) * way.norm() > kRoom_m;
     }
@@ -172,11 +231,16 @@ WallCuts::Cut WallCuts::along(const Crossing& crossing, std::uint32_t from) cons
   return {1.0f - middle, crossing.behind, crossing.before};
 }
 
-void WallCuts::cut(std::uint32_t cell, const Cuts& cuts) {
-  const auto count = 3 - std::count(cuts.begin(), cuts.end(), nullptr);
-  // Begins at the edge that leaves the corner which stands alone, or at the only one.
+/// The edge that leaves the corner which stands alone, or the only one that is cut.
+std::size_t WallCuts::firstCut(const Cuts& cuts) {
   std::size_t k = 0;
-  while (cuts[k] == nullptr || (count == 2 && cuts[(k + 2) % 3] == nullptr)) ++k;
+  while (cuts[k] == nullptr || (countOf(cuts) == 2 && cuts[(k + 2) % 3] == nullptr)) ++k;
+  return k;
+}
+
+void WallCuts::cut(std::uint32_t cell, const Cuts& cuts) {
+  const auto count = countOf(cuts);
+  const std::size_t k = firstCut(cuts);
   const auto [from, to, apex] = cornersFrom(cell, k);
   const Cut first = along(*cuts[k], from);
   const std::uint32_t child = divide(cell, k, first.share);  // (from, point, apex), (point, to, apex)

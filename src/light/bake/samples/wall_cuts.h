@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,9 @@ class WallCuts {
   struct Crossing {
     Edge edge;
     float into = -1.0f, out_of = -1.0f;  ///< the wall, in lengths of the edge; below 0: there is none
-    bool is_room = false;                ///< it is two sheets with room between them
+    std::array<std::uint32_t, 2>
+        walls{};           ///< triangles that the edge meets from its first end, its other one
+    bool is_room = false;  ///< it is two sheets with room between them
     std::uint32_t before = LightMesh::kNone, behind = LightMesh::kNone;  ///< nodes, on each side
   };
   /// The same as seen from a cell.
@@ -47,8 +50,12 @@ class WallCuts {
   std::uint32_t addNode(const Edge& edge, float at);
   bool divideRooms();
   void divideRooms(std::uint32_t cell);
+  bool divideCorners();
+  bool divideCorner(std::uint32_t cell);
+  std::optional<Eigen::Vector3f> cornerWithin(std::uint32_t cell, std::size_t k, const Cuts& cuts) const;
   Cuts cutsOf(const LightMesh::Cell& cell) const;
   Cut along(const Crossing& crossing, std::uint32_t from) const;
+  static std::size_t firstCut(const Cuts& cuts);
   void cut(std::uint32_t cell, const Cuts& cuts);
   std::array<std::uint32_t, 3> cornersFrom(std::uint32_t leaf, std::size_t k) const;
   std::uint32_t divide(std::uint32_t cell, std::size_t edge, float share);
