@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <random>
 
 namespace sunlit::evaluate {
@@ -162,6 +163,10 @@ Statistics statisticsOf(const std::vector<double>& values) {
 
 Statistics shareOf(const std::vector<double>& successes) {
   Statistics result = statisticsOf(successes);
+  const std::vector<double> series = definedOf(successes);
+  // Of ones and zeros the sum is exact, and so is what is nearest to the fraction.
+  if (!series.empty())
+    result.mean = std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
   if (result.n < 2 || result.sd > 0.0) return result;
   const double n = static_cast<double>(result.n);
   const double wide = kNormalQuantile * kNormalQuantile / (n + kNormalQuantile * kNormalQuantile);

@@ -4,6 +4,7 @@
 
 #include "path/waypoint_check.h"
 #include "sunlit/path/path.h"
+#include "sunlit/quantity/frames.h"
 
 namespace sunlit::path {
 namespace {
@@ -15,10 +16,6 @@ constexpr double kNearest_m = 1e-3;
 /// segment's start: a length of exactly n spacings must not get an (n+1)th pose by the rounding of its square
 /// root.
 constexpr double kEndTolerance = 1e-6;
-
-/// Coordinates beyond this, m, are a mistake of units or of frame; a float, as rendering uses, resolves 0.5 m
-/// there. Also keeps lengths and counts far from overflow.
-constexpr double kFarthest_m = 1e7;
 
 /// More poses than this are a mistake of spacing, and would fill the memory.
 constexpr double kMostPoses = 1e7;
@@ -34,7 +31,7 @@ bool areTooNear(const Eigen::Vector3d& point, const Eigen::Vector3d& previous) {
 }
 
 std::optional<std::string> faultOf(const Eigen::Vector3d& point, const Eigen::Vector3d* previous) {
-  const Range near{-kFarthest_m, kFarthest_m};
+  const Range near{-kFarthestPose_m, kFarthestPose_m};
   for (int axis = 0; axis < 3; ++axis) {
     if (near.contains(point[axis])) continue;
     return refusal(std::string(1, "xyz"[axis]), textOf(point[axis]), near.words() + " m");

@@ -7,6 +7,7 @@
 
 #include "sunlit/image/calibration.h"
 #include "sunlit/quantity/field.h"
+#include "sunlit/quantity/frames.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/world.h"
@@ -39,9 +40,10 @@ struct TypedPose {
 };
 
 inline std::vector<Field> fieldsOf(TypedPose& pose) {
-  return {{"x", &pose.x, "m", {}, ""},
-          {"y", &pose.y, "m", {}, ""},
-          {"z", &pose.z, "m", {}, ""},
+  const Range near{-kFarthestPose_m, kFarthestPose_m};
+  return {{"x", &pose.x, "m", near, ""},
+          {"y", &pose.y, "m", near, ""},
+          {"z", &pose.z, "m", near, ""},
           {"yaw", &pose.yaw_deg, "deg", {}, "counter-clockwise from east"},
           {"pitch", &pose.pitch_deg, "deg", {-90, 90}, "up is positive"}};
 }

@@ -39,7 +39,8 @@ struct LookAt {
 };
 
 inline std::vector<Field> fieldsOf(LookAt& point) {
-  return {{"x", &point.x, "m", {}, ""}, {"y", &point.y, "m", {}, ""}, {"z", &point.z, "m", {}, ""}};
+  const Range near{-kFarthestPose_m, kFarthestPose_m};
+  return {{"x", &point.x, "m", near, ""}, {"y", &point.y, "m", near, ""}, {"z", &point.z, "m", near, ""}};
 }
 
 /// Collects words until the camera can be placed.

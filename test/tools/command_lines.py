@@ -145,6 +145,7 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--lamps", "bright", "must be one of auto, on, off"),
            ("--lamps-dusk", "-1", "--lamps-dusk is -1, but must be from 0 to 100000 lx"),
            ("--pose", "1,2", "must be 3 to 5 numbers separated by ',': X,Y,Z[,YAW[,PITCH]]"),
+           ("--pose", "2e18,0,1", "x is 2e+18, but must be from -10000000 to 10000000 m"),
            ("--pose", "0,0,1,0,135", "pitch is 135, but must be from -90 to 90 deg"),
            ("--pose", "1,,3", 'y is "", but must be a number in m'),
            ("--view", "1,2,3,4,5,6", "must be 3 to 5 numbers"),

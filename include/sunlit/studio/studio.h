@@ -11,6 +11,7 @@
 #include "sunlit/image/sensor_noise.h"
 #include "sunlit/image/stereo.h"
 #include "sunlit/light/lamps.h"
+#include "sunlit/quantity/frames.h"
 #include "sunlit/quantity/motion.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/scene/weathering.h"
@@ -27,8 +28,9 @@ struct TopDown {
 };
 
 inline std::vector<Field> fieldsOf(TopDown& ground) {
-  return {{"x", &ground.x, "m", {}, ""},
-          {"y", &ground.y, "m", {}, ""},
+  const Range near{-kFarthestPose_m, kFarthestPose_m};
+  return {{"x", &ground.x, "m", near, ""},
+          {"y", &ground.y, "m", near, ""},
           {"extent", &ground.extent_m, "m", Range::above(0, 2e5), "from west to east"}};
 }
 

@@ -25,14 +25,17 @@ const ObservedDrive& DriveIndex::at(const std::string& stream, const std::string
 
 ObservedMap mapOf(const DriveIndex& drives, const std::vector<std::string>& streams,
                   const MapOptions& options, const StopToken& stop) {
-  ObservedMap map{std::make_unique<Localiser>(options.space, options.localiser), {}};
+  ObservedMap map{std::make_unique<Localiser>(options.space, options.localiser), {}, 0, 0};
   for (const std::string& stream : streams) {
     KeyFrameSpacing spacing(options.map_every_m);
     for (const auto& [pose, place] : drives.at(stream, options.detector)) {
       stop.check();
       if (!spacing.takes(place.head().map_from_optical.translation())) continue;
       const Observation seen = place.read();
-      map.localiser->add(keyFrameOf(seen.map_from_optical, seen.features, seen.points));
+      KeyFrame frame = keyFrameOf(seen.map_from_optical, seen.features, seen.points);
+      map.features += seen.features.key_points.size();
+      map.points += frame.points.size();
+      map.localiser->add(std::move(frame));
       map.origins.push_back({stream, pose});
     }
   }

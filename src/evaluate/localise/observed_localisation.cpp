@@ -47,7 +47,10 @@ ObservedResult localiseObserved(const ObservedDrives& observed, const Localisati
               {detector, detectorOf(options, detector).space(), options.map_every_m, options.localiser},
               progress.stop));
   ObservedResult result;
-  for (const ObservedMap& map : maps) result.key_frames = std::max(result.key_frames, map.origins.size());
+  for (std::size_t d = 0; d < maps.size(); ++d) {
+    result.key_frames = std::max(result.key_frames, maps[d].origins.size());
+    if (maps[d].features > 0 && maps[d].points == 0) result.unplaced.push_back(options.detectors[d]);
+  }
   if (result.key_frames == 0) return result;
   const std::vector<Query> queries = queriesIn(drives, streams, options.detectors);
   result.rows.resize(queries.size());

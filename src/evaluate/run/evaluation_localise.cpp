@@ -188,6 +188,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
       localiseObserved(drives, options, {callbacks.progress, callbacks.found, callbacks.stop});
   outcome.is_asked = true;
   outcome.key_frames = result.key_frames;
+  outcome.unplaced = result.unplaced;
   outcome.queries = result.rows.size();
   outcome.unobserved = unobserved(drives.streams, result.rows);
   outcome.uncompared = uncompared(drives.streams, localisedStreams(result.rows));

@@ -4,6 +4,10 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+
+#include "sunlit/quantity/frames.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::ros_interface {
 
@@ -41,7 +45,10 @@ Eigen::Isometry3d fromPose(const geometry_msgs::Pose& pose) {
   Eigen::Quaterniond rotation;
   tf2::fromMsg(pose.position, position);
   tf2::fromMsg(pose.orientation, rotation);
-  if (!position.allFinite()) throw std::invalid_argument("pose.position must be finite");
+  for (int axis = 0; axis < 3; ++axis)
+    require(
+        std::string("pose.position.") + "xyz" [axis], position[axis], { -kFarthestPose_m, kFarthestPose_m },
+        "m");
   // Written so that NaN fails too.
   if (!(std::abs(rotation.norm() - 1.0) < kUnitLength)) {
     throw std::invalid_argument("pose.orientation has the length " + std::to_string(rotation.norm()) +

@@ -139,13 +139,22 @@ std::string localisationTable(const std::vector<evaluate::LocalisationSummary>& 
   return table;
 }
 
+std::string listOf(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
 std::string faultsOf(const evaluate::LocalisationOutcome& outcome) {
   if (outcome.isWhole()) return "";
-  std::string line, uncompared;
+  std::string line;
   const auto add = [&](const std::string& text) { line += (line.empty() ? "" : "; ") + text; };
-  for (const std::string& stream : outcome.uncompared)
-    uncompared += (uncompared.empty() ? "" : ", ") + stream;
-  if (!uncompared.empty()) add("not localised, since no image of it was evaluated in a pair: " + uncompared);
+  if (!outcome.uncompared.empty())
+    add("not localised, since no image of it was evaluated in a pair: " + listOf(outcome.uncompared));
+  if (!outcome.unplaced.empty())
+    add("no query can be found by " + listOf(outcome.unplaced) +
+        ", since depth tells the place of none of the features in the map: is it of the map's camera, in m "
+        "or mm, and not 0?");
   if (outcome.key_frames == 0)
     add("nothing localised: the map has no key frame, for which its images must be evaluated in a pair, and "
         "depth, pose and camera_info have come with them");

@@ -106,7 +106,8 @@ class RenderControl(unittest.TestCase):
                 self.assertEqual(answer.camera_info.K, reader.wait("/%s/camera/camera_info" % condition, 1)[0].K)
 
             for pose, condition, part in ((pose, "c", "one of a, b"), (pose, "", "one of a, b"), (Pose(), "a", "quaternion"),
-                                          (camera_at(math.nan), "a", "finite")):
+                                          (camera_at(math.nan), "a", "pose.position.x is nan, but must be from"),
+                                          (camera_at(1e30), "a", "but must be from -10000000 to 10000000 m")):
                 answer = view(pose=pose, condition=condition)
                 self.assertFalse(answer.success)
                 self.assertIn(part, answer.message)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -128,6 +129,10 @@ TEST(ConfidenceInterval, EndsAtTheValueOfMostToTheBit) {
 
 TEST(ConfidenceInterval, OfAShareIsNeverWithoutWidth) {
   // 0 of 10 by Wilson's formula: 1.96² / (10 + 1.96²) = 0.2775.
+  // As nearly as a number can tell it, not by way of deviations from the first.
+  std::vector<double> nine(20, 0.0);
+  std::fill_n(nine.begin(), 9, 1.0);
+  EXPECT_EQ(shareOf(nine).mean, 9.0 / 20.0);
   const Statistics none = shareOf(std::vector<double>(10, 0.0)), all = shareOf(std::vector<double>(10, 1.0));
   EXPECT_EQ(none.mean, 0.0);
   EXPECT_EQ(none.ci_low, 0.0);

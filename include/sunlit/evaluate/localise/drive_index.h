@@ -58,6 +58,7 @@ struct MapOptions {
 struct ObservedMap {
   std::unique_ptr<Localiser> localiser;
   std::vector<KeyFrameOrigin> origins;
+  std::size_t features = 0, points = 0;  ///< found in them, and of these such as their depth places
 };
 
 /// Of the drive of each stream the first, and one every map_every_m; finished. Of other poses no features are

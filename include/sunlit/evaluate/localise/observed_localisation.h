@@ -34,7 +34,9 @@ struct ObservedDrives {
 };
 
 struct ObservedResult {
-  std::size_t key_frames = 0;         ///< of the detector that has most: one that threw lacks some
+  std::size_t key_frames = 0;  ///< of the detector that has most: one that threw lacks some
+  std::vector<std::string>
+      unplaced;  ///< detectors that found features in the map, of which depth placed none
   std::vector<LocalisationRow> rows;  ///< none without a key frame
 };
 

@@ -119,8 +119,12 @@ struct LocalisationOutcome {
   std::size_t unobserved = 0;
   /// Streams of the map and of the queries of which no picture was evaluated in any pair.
   std::vector<std::string> uncompared;
+  /// Detectors that found features in the map's key frames, of which depth placed none.
+  std::vector<std::string> unplaced;
   std::vector<LocalisationSummary> summary;  ///< also where it was done before
-  bool isWhole() const { return !is_asked || (key_frames > 0 && unobserved == 0 && uncompared.empty()); }
+  bool isWhole() const {
+    return !is_asked || (key_frames > 0 && unobserved == 0 && uncompared.empty() && unplaced.empty());
+  }
 };
 
 /// Each is called by one thread at a time.

@@ -380,6 +380,20 @@ TEST(EvaluationLocalise, AFolderWithARunIsNoPlaceForOthers) {
           "of others; choose another");
 }
 
+TEST(EvaluationLocalise, AMapWhoseDepthTellsNoPlaceIsAFaultAndNotOfTheLight) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(localising(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedImages(evaluation, pose);
+    evaluation.addTruePose(stampOf(pose), told(viewOf(pose).map_from_optical));
+    evaluation.addDepth(stampOf(pose), told(cv::Mat(150, 200, CV_32FC1, cv::Scalar(0))));
+  }
+  const LocalisationOutcome outcome = finishAndLocalise(evaluation);
+  EXPECT_GT(outcome.key_frames, 0u);
+  EXPECT_EQ(outcome.unplaced, localising(folder).localisation.detectors);
+  EXPECT_FALSE(outcome.isWhole());
+}
+
 TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
   const TemporaryFolder folder;
   Evaluation evaluation(localising(folder), {});
