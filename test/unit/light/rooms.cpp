@@ -152,6 +152,7 @@ struct SealedRoom {
   float wall_m = 0.0f;
   float turned_rad = 0.0f;
   float ground_x = 15.0f, ground_y = 15.0f;  ///< from its middle
+  bool has_beam = false;                     ///< which sticks through a wall
 };
 
 scene::Scene sealedRoom(const SealedRoom& room) {
@@ -176,6 +177,7 @@ scene::Scene sealedRoom(const SealedRoom& room) {
   block({3.0f, -2.7f, 0.0f}, {x, 2.7f, height});
   block({-x, -2.7f, 0.0f}, {-3.0f, 2.7f, height});
   block({-x, -y, height}, {x, y, height + room.wall_m});
+  if (room.has_beam) block({0.95f, 2.4f, 1.5f}, {1.05f, 3.0f, 1.6f});
   return scene;
 }
 
@@ -211,6 +213,11 @@ TEST(Rooms, ThatAreClosedAreDarkThoughTheirWallsAreThinnerThanCells) {
   // The third halving of the ground's edges is below the walls.
   for (const float wall_m : {0.0f, 0.05f})
     EXPECT_LT(brightestInside({wall_m, 0.0f, 6.0f, 5.4f}), 1e-4) << wall_m;
+}
+
+TEST(Rooms, ThatAreClosedAreDarkThoughABeamSticksThroughAWall) {
+  // Where light is interpolated along the beam: 0.02, and as much as of a lamp in such a room.
+  EXPECT_LT(brightestInside({0.0f, 0.0f, 15.0f, 15.0f, true}), 1e-3);
 }
 
 /// 6 m × 5 m × 2.5 m, with a window of 2 m × 1.2 m to the south, on grey ground.

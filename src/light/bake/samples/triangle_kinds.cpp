@@ -105,6 +105,39 @@ void useWhatMatters(const Surrounding& around, std::vector<TriangleTraits>* trai
   }
 }
 
+/// Small triangles that stick through large ones, as a beam through a wall, would have light of both sides
+/// all along: they get cells of their own, which are cut there.
+void promoteWhatSticksThrough(const BakeRays& rays, const Geometry& geometry,
+                              std::vector<TriangleTraits>* traits) {
+  constexpr float kAbove_m = 5e-3f;
+  constexpr std::size_t kEdges = 3, kAtOnce = kPacket / kEdges;
+  std::vector<std::uint32_t> small;
+  for (std::uint32_t t = 0; t < traits->size(); ++t)
+    if ((*traits)[t].kind == TriangleKind::kSmall) small.push_back(t);
+  std::vector<char> through(small.size(), 0);
+  tbb::parallel_for(std::size_t{0}, (small.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t p) {
+    const std::size_t begin = p * kAtOnce, count = std::min(kAtOnce, small.size() - begin);
+    RayPacket packet;
+    HitPacket hits;
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      const std::uint32_t t = small[begin + std::min(lane / kEdges, count - 1)];
+      const auto& corners = geometry.triangles[t];
+      const Eigen::Vector3f from = geometry.positions[corners[lane % kEdges]],
+                            to = geometry.positions[corners[(lane + 1) % kEdges]];
+      packet.set(lane, from + kAbove_m * geometry.planes[t].normal, to - from, lane / kEdges < count);
+    }
+    rays.cast(packet, &hits);
+    for (std::size_t lane = 0; lane < count * kEdges; ++lane) {
+      const std::uint32_t hit = hits.triangle[lane];
+      if (hit != HitPacket::kNothing && hits.distance[lane] < 1.0f &&
+          (*traits)[hit].kind == TriangleKind::kLarge)
+        through[begin + lane / kEdges] = 1;
+    }
+  });
+  for (std::size_t i = 0; i < small.size(); ++i)
+    if (through[i] != 0) (*traits)[small[i]].kind = TriangleKind::kLarge;
+}
+
 bool isClear(const Geometry& geometry, std::uint32_t t) {
   return isGlass(geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])]);
 }
@@ -137,6 +170,7 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
     sides.push_back({t, 0});
     sides.push_back({t, 1});
   }
+  promoteWhatSticksThrough(rays, geometry, &traits);
   std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.side < b.side; });
   Surrounding around{geometry, rays, {}, std::vector<std::atomic<bool>>(traits.size())};
   const SkyPatches patches(1);
