@@ -30,8 +30,6 @@ constexpr float kSmooth = 0.6f;
 constexpr float kMostLarger = 10.0f;
 /// How many times finer than elsewhere cells may become at walls.
 constexpr float kFinerAtWalls = 4.0f;
-/// One of so many nodes is kept for cells that are cut along walls.
-constexpr std::size_t kForCuts = 5;
 /// Shortest edge that may be halved, as a share of its distance from the origin.
 constexpr float kLeastShare = 2e-6f;
 /// Urgency of a cell with a wall amid it, where light leaks.
@@ -260,12 +258,11 @@ void MeshBuilder::refine(const RefineLimits& limits, const std::function<void(do
       if (traits_[t].used[side]) plant(t, side);
     }
   }
-  const RefineLimits uncut{limits.finest_m, limits.nodes - limits.nodes / kForCuts};
   for (const Pass pass : {Pass::kVaried, Pass::kAll}) {
     while (!active_.empty()) {
       lookAroundFromNew();
-      progress(std::min(1.0, static_cast<double>(valid_) / static_cast<double>(uncut.nodes)));
-      halveMostUrgent(uncut, pass);
+      progress(std::min(1.0, static_cast<double>(valid_) / static_cast<double>(limits.nodes)));
+      halveMostUrgent(limits, pass);
     }
     active_.swap(left_);
   }

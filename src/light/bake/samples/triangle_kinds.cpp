@@ -110,6 +110,7 @@ void useWhatMatters(const Surrounding& around, std::vector<TriangleTraits>* trai
 void promoteWhatSticksThrough(const BakeRays& rays, const Geometry& geometry,
                               std::vector<TriangleTraits>* traits) {
   constexpr float kAbove_m = 5e-3f;
+  constexpr float kLevel = 0.9f;  // what stands on ground goes on below it as a rule
   constexpr std::size_t kEdges = 3, kAtOnce = kPacket / kEdges;
   std::vector<std::uint32_t> small;
   for (std::uint32_t t = 0; t < traits->size(); ++t)
@@ -130,7 +131,7 @@ void promoteWhatSticksThrough(const BakeRays& rays, const Geometry& geometry,
     for (std::size_t lane = 0; lane < count * kEdges; ++lane) {
       const std::uint32_t hit = hits.triangle[lane];
       if (hit != HitPacket::kNothing && hits.distance[lane] < 1.0f &&
-          (*traits)[hit].kind == TriangleKind::kLarge)
+          (*traits)[hit].kind == TriangleKind::kLarge && std::abs(geometry.planes[hit].normal.z()) < kLevel)
         through[begin + lane / kEdges] = 1;
     }
   });

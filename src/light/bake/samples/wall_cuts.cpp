@@ -11,6 +11,14 @@ constexpr float kRoom_m = 0.01f;  // between two sheets: there may be a room
 constexpr float kOnIt_m = 1e-3f;  // nodes so near to a sheet lie on it: see SheetSides
 constexpr std::size_t kEdgesAtOnce = kPacket / 2;
 
+/// Whether light may differ much between two places: of a sign or a fence both sides see much sky, and the
+/// nodes for cuts there are better spent elsewhere. Rooms may differ by lamps.
+bool mayDiffer(const MeshNode& a, const MeshNode& b) {
+  constexpr float kRoom = 0.1f, kLeastPart = 0.35f;
+  const auto [less, more] = std::minmax({a.open[3], b.open[3]});
+  return more < kRoom || less < kLeastPart * more || !a.valid || !b.valid;
+}
+
 template <typename Cuts>
 std::ptrdiff_t countOf(const Cuts& cuts) {
   return 3 - std::count(cuts.begin(), cuts.end(), nullptr);
@@ -145,8 +153,8 @@ std::vector<WallCuts::Crossing> WallCuts::edgesAtWalls() const {
       const std::uint32_t a = cell.corner[k], b = cell.corner[(k + 1) % 3];
       const MeshNode &from = (*nodes_)[a], &to = (*nodes_)[b];
       const float length_m = (to.position - from.position).norm();
-      if ((from.valid || to.valid) && std::min(from.nearest_m, to.nearest_m) < 2.0f * length_m)
-        edges.push_back(std::minmax(a, b));
+      const bool near = std::min(from.nearest_m, to.nearest_m) < 2.0f * length_m;
+      if ((from.valid || to.valid) && near && mayDiffer(from, to)) edges.push_back(std::minmax(a, b));
     }
   }
   std::sort(edges.begin(), edges.end());
