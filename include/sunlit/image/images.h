@@ -43,6 +43,7 @@ inline bool isBlack(const Rgb8Image& picture) {
 }
 /// What whoever gets such a picture by day is asked.
 constexpr const char* kWhyBlack =
-    "does the camera stand in a body or below the ground, or is the exposure for more light than there is?";
+    "does the camera stand in a body or below the ground, are lamps off, or is the exposure for more light "
+    "than there is?";
 
 }  // namespace sunlit::image

@@ -22,7 +22,8 @@ struct LuminanceError {
   double floor_cd_per_m2 = 0.0;
 };
 
-/// All zero where no pixel sees a surface. Throws std::invalid_argument for pictures of different sizes.
+/// All zero where no pixel sees a surface, or the reference is black, which no error is relative to. Throws
+/// std::invalid_argument for pictures of different sizes.
 LuminanceError luminanceError(const image::LinearImage& picture, const Traced& reference,
                               const Surfaces& surfaces);
 

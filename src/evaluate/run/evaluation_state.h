@@ -77,8 +77,8 @@ class Evaluation::State {
     std::vector<std::vector<LostFeatures>> lost;
     std::vector<std::vector<cv::Mat>> drawn;         // empty where nothing is drawn
     std::vector<std::optional<std::string>> faults;  // of pairs that could not be compared
-    std::map<std::size_t, std::string> unobserved;   // by stream: which of its detectors have nothing, and why
-    std::vector<std::vector<char>> is_featureless;   // [stream][difference]
+    std::map<std::size_t, std::string> unobserved;  // by stream: which of its detectors have nothing, and why
+    std::vector<std::vector<char>> is_featureless;  // [stream][difference]
   };
 
   static constexpr const char* kLostFile = "lost_features.bin";

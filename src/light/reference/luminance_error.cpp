@@ -64,7 +64,8 @@ LuminanceError luminanceError(const image::LinearImage& picture, const Traced& r
                               const Surfaces& surfaces) {
   const Comparison comparison(picture, reference, surfaces);
   LuminanceError result;
-  if (comparison.pixels.empty()) return result;
+  // Beside black nothing has a relative error.
+  if (comparison.pixels.empty() || !(comparison.mean > 0.0)) return result;
   std::vector<double> errors;
   double difference = 0.0, noise = 0.0;
   for (const std::size_t pixel : comparison.pixels) {

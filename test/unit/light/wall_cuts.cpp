@@ -149,7 +149,7 @@ TEST(SheetSides, GiveEachSideItsNodeWhereASheetStandsOnThem) {
   ground.mesh.cells.push_back({{0, 1, 2}});
   ground.mesh.cells.push_back({{1, 0, 3}});
   ground.addSheet({0.0f, -1.0f}, {0.0f, 1.0f});
-  std::vector<std::uint32_t> sides;
+  std::vector<SheetSides::Side> sides;
   ground.with(
       [&](const BakeScene& scene) { sides = SheetSides(scene, &ground.mesh, &ground.nodes).separate(); });
   EXPECT_EQ(ground.nodes.size(), 6u);

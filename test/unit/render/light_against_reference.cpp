@@ -169,9 +169,11 @@ TEST(LuminanceError, IsThatOfAPictureTooBrightByATenth) {
   const light::LuminanceError error = light::luminanceError(bright, same, renderer.surfaces());
   for (const double value : {error.mean, error.median, error.p95, error.bias}) EXPECT_NEAR(value, 0.1, 1e-4);
   EXPECT_EQ(error.noise, 0.0);
-  // A black reference is not divided by, but by the floor: a thousandth of the mean.
+  // Beside a black reference there is none.
   std::fill(same.luminance.data.begin(), same.luminance.data.end(), 0.0f);
-  EXPECT_TRUE(std::isfinite(light::luminanceError(bright, same, renderer.surfaces()).mean));
+  const light::LuminanceError none = light::luminanceError(bright, same, renderer.surfaces());
+  EXPECT_EQ(none.pixels, 0u);
+  EXPECT_EQ(none.mean, 0.0);
   EXPECT_THROW(light::luminanceError(image::LinearImage(3, 3), same, renderer.surfaces()),
                std::invalid_argument);
 }

@@ -112,15 +112,12 @@ struct EvaluationCallbacks {
 
 /// What localising found.
 struct LocalisationOutcome {
-  bool is_asked = false;       ///< there was something to be done
-  std::size_t key_frames = 0;  ///< of the map; without one nothing is written
-  std::size_t queries = 0;     ///< looked for, one for each detector
-  /// Evaluated pictures that could not be looked for, for want of depth, pose or camera.
-  std::size_t unobserved = 0;
-  /// Streams of the map and of the queries of which no picture was evaluated in any pair.
-  std::vector<std::string> uncompared;
-  /// Detectors that found features in the map's key frames, of which depth placed none.
-  std::vector<std::string> unplaced;
+  bool is_asked = false;                ///< there was something to be done
+  std::size_t key_frames = 0;           ///< of the map; without one nothing is written
+  std::size_t queries = 0;              ///< looked for, one for each detector
+  std::size_t unobserved = 0;           ///< evaluated pictures that lack depth, pose or camera
+  std::vector<std::string> uncompared;  ///< streams of which no picture was evaluated in any pair
+  std::vector<std::string> unplaced;    ///< detectors that found features in the map, none placed by depth
   std::vector<LocalisationSummary> summary;  ///< also where it was done before
   bool isWhole() const {
     return !is_asked || (key_frames > 0 && unobserved == 0 && uncompared.empty() && unplaced.empty());

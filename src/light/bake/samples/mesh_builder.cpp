@@ -309,10 +309,15 @@ void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
 void MeshBuilder::separateSides() {
   const BakeScene scene{geometry_, rays_, traits_};
   std::vector<std::uint32_t> changed = WallCuts(scene, &mesh, &index.nodes).cut();
-  const std::vector<std::uint32_t> sides = SheetSides(scene, &mesh, &index.nodes).separate();
+  const std::vector<SheetSides::Side> sides = SheetSides(scene, &mesh, &index.nodes).separate();
+  originals_.resize(index.nodes.size());
+  std::iota(originals_.begin(), originals_.end(), 0u);
   has_sides_.resize(index.nodes.size());
-  for (const std::uint32_t n : sides) has_sides_[n] = true;
-  changed.insert(changed.end(), sides.begin(), sides.end());
+  for (const SheetSides::Side& side : sides) {
+    originals_[side.node] = side.original;
+    has_sides_[side.original] = true;
+    changed.push_back(side.node);
+  }
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   pullByOwnCells(changed);
@@ -335,23 +340,40 @@ void MeshBuilder::pullByOwnCells(const std::vector<std::uint32_t>& nodes) {
   }
 }
 
-void MeshBuilder::hang(std::uint32_t a, std::uint32_t b) {
-  // Of a sheet's two sides, nothing tells on which one the middle has its cells.
-  if (has_sides_[a] || has_sides_[b]) return;
-  const auto entry = middles_.find(pairKey(a, b));
+/// `middle`: of the cell with the undivided edge.
+void MeshBuilder::hang(std::uint32_t a, std::uint32_t b, const Eigen::Vector3f& middle) {
+  const std::uint32_t first = originals_[a], last = originals_[b];
+  const auto entry = middles_.find(pairKey(first, last));
   if (entry == middles_.end()) return;
   const std::uint32_t between = entry->second;
   if (has_sides_[between] || hangs_between[between][0] != LightMesh::kNone) return;
+  if ((has_sides_[first] || has_sides_[last]) && isBehindASheet(index.nodes[between], middle)) return;
   hangs_between[between] = {a, b};
-  hang(a, between);
-  hang(between, b);
+  hang(a, between, middle);
+  hang(between, b, middle);
+}
+
+/// Whether what a node amid an edge sees is on another side than a cell that the edge bounds.
+bool MeshBuilder::isBehindASheet(const MeshNode& node, const Eigen::Vector3f& middle) const {
+  constexpr float kAway_m = 5e-3f;
+  const Receiver receiver = node.receiver();
+  const Eigen::Vector3f from = receiver.origins[0] + receiver.lifts[0];
+  const Eigen::Vector3f way =
+      node.position + receiver.lifts[0] + kAway_m * (middle - node.position).normalized() - from;
+  RayPacket packet;
+  HitPacket hits;
+  for (std::size_t i = 0; i < kPacket; ++i) packet.set(i, from, way, i == 0);
+  rays_.cast(packet, &hits);
+  const std::uint32_t hit = hits.triangle[0];
+  return hit != HitPacket::kNothing && hits.distance[0] < 1.0f && !isLeaf(traits_[hit].kind);
 }
 
 void MeshBuilder::findHanging() {
   hangs_between.assign(index.nodes.size(), {LightMesh::kNone, LightMesh::kNone});
   for (const LightMesh::Cell& cell : mesh.cells) {
     if (cell.inner()) continue;
-    for (std::size_t k = 0; k < 3; ++k) hang(cell.corner[k], cell.corner[(k + 1) % 3]);
+    const Eigen::Vector3f middle = middleOf(cell, index.nodes);
+    for (std::size_t k = 0; k < 3; ++k) hang(cell.corner[k], cell.corner[(k + 1) % 3], middle);
   }
 }
 

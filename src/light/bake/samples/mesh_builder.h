@@ -56,7 +56,8 @@ class MeshBuilder {
   std::uint32_t middle(std::uint32_t a, std::uint32_t b);
   void separateSides();
   void pullByOwnCells(const std::vector<std::uint32_t>& nodes);
-  void hang(std::uint32_t a, std::uint32_t b);
+  void hang(std::uint32_t a, std::uint32_t b, const Eigen::Vector3f& middle);
+  bool isBehindASheet(const MeshNode& node, const Eigen::Vector3f& middle) const;
   void findHanging();
 
   const Geometry& geometry_;
@@ -67,10 +68,11 @@ class MeshBuilder {
   std::vector<SkyPatches::Ray> directions_;                   ///< in which nodes look around
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of halved edges
   std::vector<std::uint32_t> active_;                         ///< leaves that may still be halved
-  std::vector<std::uint32_t> left_;  ///< leaves that were not halved in the first pass
-  std::vector<bool> has_sides_;      ///< of each node, whether SheetSides made several of it
-  std::size_t looked_ = 0;           ///< how many nodes have looked around
-  std::size_t valid_ = 0;            ///< how many of those that have looked around a camera may see
+  std::vector<std::uint32_t> left_;       ///< leaves that were not halved in the first pass
+  std::vector<std::uint32_t> originals_;  ///< of each node: itself, or SheetSides::Side::original
+  std::vector<bool> has_sides_;           ///< of each original
+  std::size_t looked_ = 0;                ///< how many nodes have looked around
+  std::size_t valid_ = 0;                 ///< how many of those that have looked around a camera may see
 };
 
 }  // namespace sunlit::light

@@ -10,7 +10,7 @@ namespace sunlit::light {
 SheetSides::SheetSides(const BakeScene& scene, LightMesh* mesh, std::vector<MeshNode>* nodes)
     : scene_(scene), mesh_(mesh), nodes_(nodes) {}
 
-std::vector<std::uint32_t> SheetSides::separate() {
+std::vector<SheetSides::Side> SheetSides::separate() {
   findCells();
   std::vector<Group> groups;
   for (std::size_t i = 0; i < around_.size(); ++i) {
@@ -18,7 +18,7 @@ std::vector<std::uint32_t> SheetSides::separate() {
     groups.back().end = i + 1;
   }
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) { findSides(&groups[g]); });
-  std::vector<std::uint32_t> found;
+  std::vector<Side> found;
   for (const Group& group : groups) {
     const std::uint32_t sides = 1 + *std::max_element(group.sides.begin(), group.sides.end());
     if (sides == 1) continue;
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> SheetSides::separate() {
     const MeshNode copy = (*nodes_)[node];
     for (; own.size() < sides; nodes_->push_back(copy))
       own.push_back(static_cast<std::uint32_t>(nodes_->size()));
-    found.insert(found.end(), own.begin(), own.end());
+    for (const std::uint32_t n : own) found.push_back({n, node});
     for (std::size_t i = group.begin; i < group.end; ++i) {
       LightMesh::Cell& cell = mesh_->cells[around_[i].cell];
       const std::uint32_t of_side = own[group.sides[i - group.begin]];

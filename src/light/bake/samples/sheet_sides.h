@@ -16,8 +16,12 @@ class SheetSides {
  public:
   /// Keeps references and pointers.
   SheetSides(const BakeScene& scene, LightMesh* mesh, std::vector<MeshNode>* nodes);
+  struct Side {
+    std::uint32_t node;
+    std::uint32_t original;  ///< which may be the same
+  };
   /// All those that come of nodes with two sides or more.
-  std::vector<std::uint32_t> separate();
+  std::vector<Side> separate();
 
  private:
   struct Around {
