@@ -147,7 +147,7 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--pose", "1,2", "must be 3 to 5 numbers separated by ',': X,Y,Z[,YAW[,PITCH]]"),
            ("--pose", "2e18,0,1", "x is 2e+18, but must be from -10000000 to 10000000 m"),
            ("--pose", "0,0,1,0,135", "pitch is 135, but must be from -90 to 90 deg"),
-           ("--pose", "1,,3", 'y is "", but must be a number in m'),
+           ("--pose", "1,,3", 'y is "", but must be a number from -10000000 to 10000000 m'),
            ("--view", "1,2,3,4,5,6", "must be 3 to 5 numbers"),
            ("--top-down", "0,0,0", "extent is 0, but must be above 0 and up to 200000 m"),
            ("--sun", "285,-91", '--sun is "285,-91": elevation is -91, but must be from -90 to 90 deg'),
