@@ -17,6 +17,11 @@ struct Plane {
   Eigen::Vector3f normal;        ///< unit, to the front side, in `map`
   std::uint32_t no_meaning = 0;  ///< where padding would be, so that equal planes have equal bytes
   double offset = 0.0;  ///< m; of the rounded normal, so that the plane goes through the triangle exactly
+
+  /// How far a point is before its front side, m.
+  double height(const Eigen::Vector3f& point) const {
+    return normal.cast<double>().dot(point.cast<double>()) - offset;
+  }
 };
 
 /// The plane of a triangle, whose front runs counter-clockwise; none if it has no area.

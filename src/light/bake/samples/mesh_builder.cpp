@@ -96,6 +96,7 @@ void MeshBuilder::lookAround(const std::vector<std::uint32_t>& from) {
     std::array<Eigen::Vector4f, kNodesAtOnce> open;
     open.fill(Eigen::Vector4f::Zero());
     nearest.fill(1e9f);
+    findRoom(from.data() + begin, count);
     for (int i = 0; i < count; ++i)
       receivers[static_cast<std::size_t>(i)] = nodes[from[begin + static_cast<std::size_t>(i)]].receiver();
     probe(rays_, directions_, {receivers.data(), count},
@@ -128,6 +129,27 @@ void MeshBuilder::lookAround(const std::vector<std::uint32_t>& from) {
   });
 }
 
+/// Pulled into a wall or through it, a node would be taken for one that is within it.
+void MeshBuilder::findRoom(const std::uint32_t* from, int count) {
+  RayPacket packet;
+  HitPacket hits;
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    const MeshNode& node = index.nodes[from[std::min(i, count - 1)]];
+    const Receiver receiver = node.receiver();
+    const Eigen::Vector3f pull = receiver.origins[0] - node.position;
+    packet.set(static_cast<std::size_t>(i), node.position + receiver.lifts[0], pull,
+               i < count && !pull.isZero(0.0f));
+  }
+  rays_.cast(packet, &hits);
+  for (int i = 0; i < count; ++i) {
+    const std::uint32_t hit = hits.triangle[i];
+    if (hit == HitPacket::kNothing || hits.distance[i] > 1.0f || isLeaf(traits_[hit].kind)) continue;
+    MeshNode& node = index.nodes[from[i]];
+    if (std::abs(geometry_.planes[hit].height(node.position)) < static_cast<double>(kOnIt_m)) continue;
+    node.room_m = hits.distance[i] * (node.receiver().origins[0] - node.position).norm();
+  }
+}
+
 void MeshBuilder::lookAroundFromNew() {
   std::vector<std::uint32_t> fresh(index.nodes.size() - looked_);
   std::iota(fresh.begin(), fresh.end(), static_cast<std::uint32_t>(looked_));
@@ -152,10 +174,9 @@ float MeshBuilder::variation(const LightMesh::Cell& cell) const {
 /// interpolated; and no less than by how far off it is, lest a pool of light lies unseen amid the cell.
 float MeshBuilder::shoneUnevenly(const LightMesh::Cell& cell) const {
   constexpr float kSmoothShine = 0.4f, kFaint_lx = 0.05f;
-  float least = 1e9f, most = 0.0f, longest = 0.0f, nearest = 1e9f;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const MeshNode& node = index.nodes[cell.corner[k]];
-    longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
+  float least = 1e9f, most = 0.0f, nearest = 1e9f;
+  for (const std::uint32_t n : cell.corner) {
+    const MeshNode& node = index.nodes[n];
     if (!node.valid) continue;
     least = std::min(least, node.shone_lx);
     most = std::max(most, node.shone_lx);
@@ -163,17 +184,17 @@ float MeshBuilder::shoneUnevenly(const LightMesh::Cell& cell) const {
   }
   if (!(most > 0.0f)) return 0.0f;
   const float uneven = (most - least) / (kSmoothShine * std::max(0.5f * (most + least), kFaint_lx));
-  return std::max(uneven, longest / (kNearShare * nearest));
+  return std::max(uneven, longestEdge(cell, index.nodes) / (kNearShare * nearest));
 }
 
 /// Above 1 where the cell must be halved.
 float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m, Pass pass) const {
-  float longest = 0.0f, reach = 1e9f, nearest = 1e9f;
+  const float longest = longestEdge(cell, index.nodes);
+  float reach = 1e9f, nearest = 1e9f;
   int valid = 0;
   Eigen::AlignedBox3f box;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const MeshNode& node = index.nodes[cell.corner[k]];
-    longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
+  for (const std::uint32_t n : cell.corner) {
+    const MeshNode& node = index.nodes[n];
     box.extend(node.position);
     if (!node.valid) continue;
     ++valid;
@@ -192,13 +213,8 @@ float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m, Pass pas
 
 /// Whether a wall stands between the corners of a small cell: light on both its sides would be mixed there.
 bool MeshBuilder::cut(const LightMesh::Cell& cell, float finest_m) const {
-  float longest = 0.0f, nearest = 1e9f;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const MeshNode& node = index.nodes[cell.corner[k]];
-    longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
-    nearest = std::min(nearest, node.nearest_m);
-  }
-  if (longest <= finest_m / kFinerAtWalls || nearest > 2.0f * longest) return false;
+  if (longestEdge(cell, index.nodes) <= finest_m / kFinerAtWalls || !mayCarry(cell, index.nodes))
+    return false;
   RayPacket packet;
   HitPacket hits;
   for (std::size_t i = 0; i < RayPacket::kSize; ++i) {

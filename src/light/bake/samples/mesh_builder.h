@@ -46,6 +46,7 @@ class MeshBuilder {
   void plant(std::uint32_t triangle, int side);
   void addLeaf(std::uint32_t cell);
   void lookAround(const std::vector<std::uint32_t>& nodes);
+  void findRoom(const std::uint32_t* from, int count);
   void lookAroundFromNew();
   float variation(const LightMesh::Cell& cell) const;
   float shoneUnevenly(const LightMesh::Cell& cell) const;

@@ -32,11 +32,14 @@ void MeshNode::pullTowards(const Eigen::Vector3f& middle, float counts) {
 void MeshNode::pullNoMore() {
   inwards.setZero();
   pulled = 0.0f;
+  room_m = 1e9f;
 }
 
 Receiver MeshNode::receiver() const {
+  constexpr float kOfRoom = 0.5f;
   const Eigen::Vector3f pull = inwards * (kInwards_m / std::max(pulled, kLeastPulled));
-  const Eigen::Vector3f origin = position + pull;
+  const float most_m = kOfRoom * room_m, length_m = pull.norm();
+  const Eigen::Vector3f origin = position + (length_m > most_m ? most_m / length_m : 1.0f) * pull;
   Receiver receiver;
   receiver.origins.fill(origin);
   receiver.lifts.fill(Receiver::clearance_m(origin) * flat());
@@ -76,6 +79,21 @@ Eigen::Vector3f middleOf(const LightMesh::Cell& leaf, const std::vector<MeshNode
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();
   for (const std::uint32_t n : leaf.corner) middle += nodes[n].position / 3.0f;
   return middle;
+}
+
+float longestEdge(const LightMesh::Cell& leaf, const std::vector<MeshNode>& nodes) {
+  float longest_m = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3f& next = nodes[leaf.corner[(k + 1) % 3]].position;
+    longest_m = std::max(longest_m, (nodes[leaf.corner[k]].position - next).norm());
+  }
+  return longest_m;
+}
+
+bool mayCarry(const LightMesh::Cell& leaf, const std::vector<MeshNode>& nodes) {
+  const auto& [a, b, c] = leaf.corner;
+  const float nearest_m = std::min({nodes[a].nearest_m, nodes[b].nearest_m, nodes[c].nearest_m});
+  return nearest_m < 2.0f * longestEdge(leaf, nodes);
 }
 
 }  // namespace sunlit::light

@@ -10,6 +10,9 @@
 
 namespace sunlit::light {
 
+/// Nodes so near to a sheet lie on it, and are on either side of it: see SheetSides.
+constexpr float kOnIt_m = 1e-3f;
+
 /// A point at which light is wanted, and what is found there on first sight.
 struct MeshNode {
   Eigen::Vector3f position;
@@ -17,6 +20,7 @@ struct MeshNode {
   Eigen::Vector3f face;                               ///< Receiver::face
   Eigen::Vector3f inwards = Eigen::Vector3f::Zero();  ///< sum of vectors to middles of cells around
   float pulled = 0.0f;                                ///< sum of their lengths
+  float room_m = 1e9f;                                ///< on that way, up to a wall
   float reach_m = 0.0f;                               ///< harmonic mean distance of what is seen
   float nearest_m = 0.0f;                             ///< the closest of it that is not as level as the place
   /// Share of an even sphere's light, by cosine, that nothing hides; before it, times its mean direction.
@@ -52,5 +56,16 @@ class NodeIndex {
 
 /// Of a leaf: the mean of its corners.
 Eigen::Vector3f middleOf(const LightMesh::Cell& leaf, const std::vector<MeshNode>& nodes);
+float longestEdge(const LightMesh::Cell& leaf, const std::vector<MeshNode>& nodes);
+/// Whether anything is near enough to stand on a leaf, as far as its corners see.
+bool mayCarry(const LightMesh::Cell& leaf, const std::vector<MeshNode>& nodes);
+
+/// A leaf and one of its corners; in order of the nodes.
+struct CellAround {
+  std::uint32_t node, cell;
+  bool operator<(const CellAround& other) const {
+    return node != other.node ? node < other.node : cell < other.cell;
+  }
+};
 
 }  // namespace sunlit::light

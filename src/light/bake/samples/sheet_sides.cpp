@@ -41,7 +41,7 @@ std::vector<SheetSides::Side> SheetSides::separate() {
 void SheetSides::findCells() {
   std::vector<char> near(nodes_->size(), 0);
   for (const LightMesh::Cell& cell : mesh_->cells) {
-    if (cell.inner() || !isNear(cell)) continue;
+    if (cell.inner() || !mayCarry(cell, *nodes_)) continue;
     for (const std::uint32_t n : cell.corner) near[n] = 1;
   }
   for (std::uint32_t c = 0; c < mesh_->cells.size(); ++c) {
@@ -52,18 +52,8 @@ void SheetSides::findCells() {
   std::sort(around_.begin(), around_.end());
 }
 
-bool SheetSides::isNear(const LightMesh::Cell& cell) const {
-  float longest_m = 0.0f, nearest_m = 1e9f;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const MeshNode &here = (*nodes_)[cell.corner[k]], &next = (*nodes_)[cell.corner[(k + 1) % 3]];
-    longest_m = std::max(longest_m, (next.position - here.position).norm());
-    nearest_m = std::min(nearest_m, here.nearest_m);
-  }
-  return nearest_m < 2.0f * longest_m;
-}
-
 /// A point of a cell near one of its corners, and as much above it.
-Eigen::Vector3f SheetSides::within(const Around& around) const {
+Eigen::Vector3f SheetSides::within(const CellAround& around) const {
   constexpr float kMost_m = 4e-3f;  // lest what stands beside the node is between the points
   const MeshNode& node = (*nodes_)[around.node];
   const Eigen::Vector3f way = middleOf(mesh_->cells[around.cell], *nodes_) - node.position;

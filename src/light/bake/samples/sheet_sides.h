@@ -24,27 +24,20 @@ class SheetSides {
   std::vector<Side> separate();
 
  private:
-  struct Around {
-    std::uint32_t node, cell;
-    bool operator<(const Around& other) const {
-      return node != other.node ? node < other.node : cell < other.cell;
-    }
-  };
   /// Cells about one node, and the side that each is on.
   struct Group {
     std::size_t begin, end;  ///< into around_
     std::vector<std::uint32_t> sides;
   };
   void findCells();
-  bool isNear(const LightMesh::Cell& cell) const;
   static bool isSheet(const TriangleTraits& triangle);
   void findSides(Group* group) const;
-  Eigen::Vector3f within(const Around& around) const;
+  Eigen::Vector3f within(const CellAround& around) const;
 
   BakeScene scene_;
   LightMesh* mesh_;
   std::vector<MeshNode>* nodes_;
-  std::vector<Around> around_;
+  std::vector<CellAround> around_;
 };
 
 }  // namespace sunlit::light

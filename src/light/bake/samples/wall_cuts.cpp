@@ -8,7 +8,6 @@ namespace sunlit::light {
 namespace {
 
 constexpr float kRoom_m = 0.01f;  // between two sheets: there may be a room
-constexpr float kOnIt_m = 1e-3f;  // nodes so near to a sheet lie on it: see SheetSides
 constexpr std::size_t kEdgesAtOnce = kPacket / 2;
 
 /// Whether light may differ much between two places: of a sign or a fence both sides see much sky, and the
@@ -16,7 +15,7 @@ constexpr std::size_t kEdgesAtOnce = kPacket / 2;
 bool mayDiffer(const MeshNode& a, const MeshNode& b) {
   constexpr float kRoom = 0.1f, kLeastPart = 0.35f;
   const auto [less, more] = std::minmax({a.open[3], b.open[3]});
-  return more < kRoom || less < kLeastPart * more || !a.valid || !b.valid;
+  return more < kRoom || less < kLeastPart * more;
 }
 
 template <typename Cuts>
@@ -31,10 +30,8 @@ WallCuts::WallCuts(const BakeScene& scene, LightMesh* mesh, std::vector<MeshNode
 
 std::vector<std::uint32_t> WallCuts::cut() {
   constexpr int kMostPasses = 4;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    findCrossings();
-    if (!divideRooms() && !divideCorners()) break;
-  }
+  findCrossings();
+  for (int pass = 0; pass < kMostPasses && (divideRooms() || divideCorners()); ++pass) findCrossings();
   for (Crossing& crossing : crossings_) {
     crossing.before = addNode(crossing.edge, crossing.into);
     crossing.behind = addNode(crossing.edge, crossing.out_of);
@@ -58,9 +55,16 @@ void WallCuts::visitLeaves(const Visit& visit) {
 
 void WallCuts::findCrossings() {
   crossings_ = edgesAtWalls();
-  findWalls(&crossings_);
-  const auto is_free = [](const Crossing& one) { return one.into < 0.0f; };
-  crossings_.erase(std::remove_if(crossings_.begin(), crossings_.end(), is_free), crossings_.end());
+  findWalls();
+  keepThose([](const Crossing& one) { return one.into >= 0.0f; });
+  findRooms();
+  keepThose([this](const Crossing& one) { return one.is_room || partsLight(one); });
+}
+
+template <typename Wanted>
+void WallCuts::keepThose(const Wanted& wanted) {
+  const auto kept = std::stable_partition(crossings_.begin(), crossings_.end(), wanted);
+  crossings_.erase(kept, crossings_.end());
 }
 
 /// Where an edge passes through the corner of a room, it gets a node in there. Returns whether one did.
@@ -133,9 +137,8 @@ std::optional<Eigen::Vector3f> WallCuts::cornerWithin(std::uint32_t cell, std::s
   // Heights of the corners above both walls are to be 0, and weights to sum to 1.
   Eigen::Matrix3d heights;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const Eigen::Vector3d at = (*nodes_)[corners[static_cast<std::size_t>(i)]].position.cast<double>();
-    heights.col(i) << one.normal.cast<double>().dot(at) - one.offset,
-        other.normal.cast<double>().dot(at) - other.offset, 1.0;
+    const Eigen::Vector3f& at = (*nodes_)[corners[static_cast<std::size_t>(i)]].position;
+    heights.col(i) << one.height(at), other.height(at), 1.0;
   }
   const double scale = heights.topRows<2>().norm();
   if (std::abs(heights.determinant()) < kFlat * kLeast * scale * scale) return std::nullopt;
@@ -154,7 +157,7 @@ std::vector<WallCuts::Crossing> WallCuts::edgesAtWalls() const {
       const MeshNode &from = (*nodes_)[a], &to = (*nodes_)[b];
       const float length_m = (to.position - from.position).norm();
       const bool near = std::min(from.nearest_m, to.nearest_m) < 2.0f * length_m;
-      if ((from.valid || to.valid) && near && mayDiffer(from, to)) edges.push_back(std::minmax(a, b));
+      if (near && (from.valid || to.valid)) edges.push_back(std::minmax(a, b));
     }
   }
   std::sort(edges.begin(), edges.end());
@@ -164,47 +167,77 @@ std::vector<WallCuts::Crossing> WallCuts::edgesAtWalls() const {
   return found;
 }
 
-/// By a ray from either end.
-void WallCuts::findWalls(std::vector<Crossing>* crossings) const {
-  const std::size_t packets = (crossings->size() + kEdgesAtOnce - 1) / kEdgesAtOnce;
+/// Two rays for each of all crossings, each of which goes from `starts` to the edge's one and other end;
+/// `visit` gets the crossing and, as a lane, what its first ray met.
+template <typename Starts, typename Visit>
+void WallCuts::castTwice(const Starts& starts, const Visit& visit) {
+  const std::size_t packets = (crossings_.size() + kEdgesAtOnce - 1) / kEdgesAtOnce;
   tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
     const std::size_t begin = p * kEdgesAtOnce;
-    const std::size_t count = std::min(kEdgesAtOnce, crossings->size() - begin);
+    const std::size_t count = std::min(kEdgesAtOnce, crossings_.size() - begin);
     RayPacket packet;
     HitPacket hits;
     for (std::size_t i = 0; i < kEdgesAtOnce; ++i) {
-      const auto [a, b] = (*crossings)[begin + std::min(i, count - 1)].edge;
-      const Eigen::Vector3f from = (*nodes_)[a].aboveBumps(), to = (*nodes_)[b].aboveBumps();
-      packet.set(2 * i, from, to - from, i < count);
-      packet.set(2 * i + 1, to, from - to, i < count);
+      const Crossing& crossing = crossings_[begin + std::min(i, count - 1)];
+      const auto [a, b] = crossing.edge;
+      const Eigen::Vector3f one = (*nodes_)[a].aboveBumps(), other = (*nodes_)[b].aboveBumps();
+      const auto [to_one, to_other] = starts(crossing, one, other);
+      packet.set(2 * i, to_other, other - to_other, i < count);
+      packet.set(2 * i + 1, to_one, one - to_one, i < count);
     }
     scene_.rays.cast(packet, &hits);
-    for (std::size_t i = 0; i < count; ++i) {
-      Crossing& crossing = (*crossings)[begin + i];
-      const auto [a, b] = crossing.edge;
-      const MeshNode &from = (*nodes_)[a], &to = (*nodes_)[b];
-      const Eigen::Vector3f way = to.position - from.position;
-      if (!leaves(from, way, hits, 2 * i) || !leaves(to, -way, hits, 2 * i + 1)) continue;
-      // Of a sheet both are the same, but for rounding.
-      const auto [into, out_of] = std::minmax({hits.distance[2 * i], 1.0f - hits.distance[2 * i + 1]});
-      const float beside = std::min(into, 1.0f - out_of);
-      if (std::max(beside, out_of - into) * way.norm() < kOnIt_m) continue;
-      crossing.into = into;
-      crossing.out_of = out_of;
-      crossing.walls = {hits.triangle[2 * i], hits.triangle[2 * i + 1]};
-      const auto isSheet = [&](std::size_t lane) { return !scene_.traits[hits.triangle[lane]].solid; };
-      crossing.is_room = isSheet(2 * i) && isSheet(2 * i + 1) && (out_of - into) * way.norm() > kRoom_m;
-    }
+    for (std::size_t i = 0; i < count; ++i) visit(&crossings_[begin + i], hits, 2 * i);
   });
 }
 
-/// Whether a ray from a node towards the other end of an edge meets a wall, which the node is not within.
-bool WallCuts::leaves(const MeshNode& node, const Eigen::Vector3f& way, const HitPacket& hits,
-                      std::size_t lane) const {
+/// By a ray from either end.
+void WallCuts::findWalls() {
+  const auto starts = [](const Crossing&, const Eigen::Vector3f& one, const Eigen::Vector3f& other) {
+    return std::make_pair(other, one);
+  };
+  castTwice(starts, [&](Crossing* crossing, const HitPacket& hits, std::size_t lane) {
+    const Eigen::Vector3f way = wayOf(crossing->edge);
+    if (!meetsWall(hits, lane) || !meetsWall(hits, lane + 1)) return;
+    // Of a sheet both are the same, but for rounding.
+    const auto [into, out_of] = std::minmax({hits.distance[lane], 1.0f - hits.distance[lane + 1]});
+    if (std::max(std::min(into, 1.0f - out_of), out_of - into) * way.norm() < kOnIt_m) return;
+    crossing->into = into;
+    crossing->out_of = out_of;
+    crossing->walls = {hits.triangle[lane], hits.triangle[lane + 1]};
+  });
+}
+
+/// By rays from amid what is between the walls.
+void WallCuts::findRooms() {
+  const auto starts = [](const Crossing& crossing, const Eigen::Vector3f& one, const Eigen::Vector3f& other) {
+    const Eigen::Vector3f middle = one + 0.5f * (crossing.into + crossing.out_of) * (other - one);
+    return std::make_pair(middle, middle);
+  };
+  castTwice(starts, [&](Crossing* crossing, const HitPacket& hits, std::size_t lane) {
+    const Eigen::Vector3f way = wayOf(crossing->edge);
+    crossing->is_room = (crossing->out_of - crossing->into) * way.norm() > kRoom_m && meetsWall(hits, lane) &&
+                        !leavesBody(hits.triangle[lane], way) && meetsWall(hits, lane + 1) &&
+                        !leavesBody(hits.triangle[lane + 1], -way);
+  });
+}
+
+Eigen::Vector3f WallCuts::wayOf(const Edge& edge) const {
+  return (*nodes_)[edge.second].position - (*nodes_)[edge.first].position;
+}
+
+bool WallCuts::meetsWall(const HitPacket& hits, std::size_t lane) const {
   const std::uint32_t hit = hits.triangle[lane];
-  if (hit == HitPacket::kNothing || hits.distance[lane] > 1.0f || isLeaf(scene_.traits[hit].kind))
-    return false;
-  return node.valid || !scene_.traits[hit].solid || scene_.geometry.planes[hit].normal.dot(way) < 0.0f;
+  return hit != HitPacket::kNothing && hits.distance[lane] <= 1.0f && !isLeaf(scene_.traits[hit].kind);
+}
+
+bool WallCuts::leavesBody(std::uint32_t triangle, const Eigen::Vector3f& way) const {
+  return scene_.traits[triangle].solid && scene_.geometry.planes[triangle].normal.dot(way) > 0.0f;
+}
+
+/// What lies within a body, or below a sheet, has no light of its own.
+bool WallCuts::partsLight(const Crossing& crossing) const {
+  const MeshNode &from = (*nodes_)[crossing.edge.first], &to = (*nodes_)[crossing.edge.second];
+  return from.valid && to.valid && mayDiffer(from, to);
 }
 
 std::uint32_t WallCuts::addNode(const Edge& edge, float at) {

@@ -30,7 +30,7 @@ class WallCuts {
     float into = -1.0f, out_of = -1.0f;  ///< the wall, in lengths of the edge; below 0: there is none
     std::array<std::uint32_t, 2>
         walls{};           ///< triangles that the edge meets from its first end, its other one
-    bool is_room = false;  ///< it is two sheets with room between them
+    bool is_room = false;  ///< it is two walls with room between them, which an end may be within
     std::uint32_t before = LightMesh::kNone, behind = LightMesh::kNone;  ///< nodes, on each side
   };
   /// The same as seen from a cell.
@@ -43,10 +43,17 @@ class WallCuts {
   template <typename Visit>
   void visitLeaves(const Visit& visit);
   void findCrossings();
+  template <typename Wanted>
+  void keepThose(const Wanted& wanted);
   std::vector<Crossing> edgesAtWalls() const;
-  void findWalls(std::vector<Crossing>* crossings) const;
-  bool leaves(const MeshNode& node, const Eigen::Vector3f& way, const HitPacket& hits,
-              std::size_t lane) const;
+  template <typename Starts, typename Visit>
+  void castTwice(const Starts& starts, const Visit& visit);
+  void findWalls();
+  void findRooms();
+  Eigen::Vector3f wayOf(const Edge& edge) const;
+  bool meetsWall(const HitPacket& hits, std::size_t lane) const;
+  bool leavesBody(std::uint32_t triangle, const Eigen::Vector3f& way) const;
+  bool partsLight(const Crossing& crossing) const;
   std::uint32_t addNode(const Edge& edge, float at);
   bool divideRooms();
   void divideRooms(std::uint32_t cell);

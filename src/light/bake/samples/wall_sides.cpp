@@ -17,8 +17,8 @@ WallSides::WallSides(LightMesh* mesh, std::vector<MeshNode>* nodes, Hangs* hangs
 void WallSides::separate() {
   for (std::uint32_t n = 0; n < nodes_->size(); ++n)
     if (!open(n)) (*hangs_between_)[n] = kFromNothing;
-  const std::vector<Around> all = cellsAround();
-  std::vector<Around> cells;
+  const std::vector<CellAround> all = cellsAround();
+  std::vector<CellAround> cells;
   for (std::size_t i = 0; i < all.size(); ++i) {
     cells.push_back(all[i]);
     if (i + 1 < all.size() && all[i + 1].node == all[i].node) continue;
@@ -29,8 +29,8 @@ void WallSides::separate() {
 }
 
 /// Of each node inside a wall, those that reach out of it.
-std::vector<WallSides::Around> WallSides::cellsAround() const {
-  std::vector<Around> all;
+std::vector<CellAround> WallSides::cellsAround() const {
+  std::vector<CellAround> all;
   for (std::uint32_t c = 0; c < mesh_->cells.size(); ++c) {
     const LightMesh::Cell& cell = mesh_->cells[c];
     if (cell.inner()) continue;
@@ -45,7 +45,7 @@ std::vector<WallSides::Around> WallSides::cellsAround() const {
 
 /// Neighbours of one cell are on one side, and so is what hangs from another one.
 std::vector<WallSides::Neighbour> WallSides::sidesOf(std::uint32_t node,
-                                                     const std::vector<Around>& cells) const {
+                                                     const std::vector<CellAround>& cells) const {
   std::vector<Neighbour> found;
   const auto at = [&](std::uint32_t n) {
     return std::find_if(found.begin(), found.end(), [n](const Neighbour& other) { return other.node == n; });
@@ -55,7 +55,7 @@ std::vector<WallSides::Neighbour> WallSides::sidesOf(std::uint32_t node,
     for (Neighbour& other : found)
       if (other.side == from) other.side = to;
   };
-  for (const Around& around : cells) {
+  for (const CellAround& around : cells) {
     std::uint32_t before = LightMesh::kNone;
     for (const std::uint32_t n : mesh_->cells[around.cell].corner) {
       if (!open(n)) continue;
@@ -80,7 +80,7 @@ std::vector<WallSides::Neighbour> WallSides::sidesOf(std::uint32_t node,
   return found;
 }
 
-void WallSides::separate(std::uint32_t node, const std::vector<Around>& cells) {
+void WallSides::separate(std::uint32_t node, const std::vector<CellAround>& cells) {
   const std::vector<Neighbour> found = sidesOf(node, cells);
   std::vector<std::uint32_t> own(found.size(), LightMesh::kNone);  // of each side
   own[found.front().side] = node;
@@ -93,7 +93,7 @@ void WallSides::separate(std::uint32_t node, const std::vector<Around>& cells) {
     }
     places_.push_back({node, other.node, own[other.side]});
   }
-  for (const Around& around : cells) {
+  for (const CellAround& around : cells) {
     auto& corner = mesh_->cells[around.cell].corner;
     const auto out = std::find_if(corner.begin(), corner.end(), [&](std::uint32_t n) { return open(n); });
     const auto side = std::find_if(found.begin(), found.end(), [&](const Neighbour& other) {

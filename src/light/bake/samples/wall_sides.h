@@ -23,20 +23,14 @@ class WallSides {
   void separate();
 
  private:
-  struct Around {
-    std::uint32_t node, cell;
-    bool operator<(const Around& other) const {
-      return node != other.node ? node < other.node : cell < other.cell;
-    }
-  };
   /// A neighbour that is no such node, and the side that it stands on.
   struct Neighbour {
     std::uint32_t node;
     std::size_t side;
   };
-  std::vector<Around> cellsAround() const;
-  void separate(std::uint32_t node, const std::vector<Around>& cells);
-  std::vector<Neighbour> sidesOf(std::uint32_t node, const std::vector<Around>& cells) const;
+  std::vector<CellAround> cellsAround() const;
+  void separate(std::uint32_t node, const std::vector<CellAround>& cells);
+  std::vector<Neighbour> sidesOf(std::uint32_t node, const std::vector<CellAround>& cells) const;
   void hangFromOwnSides();
   bool open(std::uint32_t node) const { return (*nodes_)[node].valid; }
 
