@@ -180,6 +180,7 @@ void checkLamp(const Lamp& lamp) {
   checkRange("inner_rad", lamp.inner_rad, {0.0f, lamp.outer_rad}, failHere);
   checkRange("exponent", lamp.exponent, {0.0f, 100.0f}, failHere);
   checkRange("radius_m", lamp.radius_m, {0.0f, 10.0f}, failHere);
+  checkRange("housing_m", lamp.housing_m, {0.0f, 10.0f}, failHere);
 }
 
 }  // namespace

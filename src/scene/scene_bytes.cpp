@@ -85,9 +85,9 @@ auto partsOf(T& flat) {
 template <typename T, IfIs<T, Lamp>* = nullptr>
 auto partsOf(T& lamp) {
   auto& [name, group, position, direction, intensity, relative, constant, linear, quadratic, range_m,
-         ends_sharply, inner_rad, outer_rad, exponent, radius_m, casts_shadows] = lamp;
+         ends_sharply, inner_rad, outer_rad, exponent, radius_m, housing_m, casts_shadows] = lamp;
   return std::tie(name, group, position, direction, intensity, relative, constant, linear, quadratic, range_m,
-                  ends_sharply, inner_rad, outer_rad, exponent, radius_m, casts_shadows);
+                  ends_sharply, inner_rad, outer_rad, exponent, radius_m, housing_m, casts_shadows);
 }
 
 template <typename T, IfIs<T, Scene>* = nullptr>

@@ -9,6 +9,7 @@
 #include "studio/kept_track.h"
 #include "studio/tell.h"
 #include "sunlit/image/cache_folder.h"
+#include "sunlit/light/lamp_surroundings.h"
 #include "sunlit/light/lamps.h"
 #include "sunlit/quantity/memory.h"
 
@@ -21,6 +22,14 @@ void tellOf(const WorldOptions& options, const scene::Scene& scene, std::size_t 
   tell(reports.note, "World " + options.name + ": " + std::to_string(triangles) + " triangles, " +
                          std::to_string(scene.textures.size()) + " textures, " +
                          std::to_string(scene.lamps.size()) + " lamps");
+}
+
+void tellOfHousings(const WorldOptions& options, const std::vector<std::string>& lamps,
+                    const Reports& reports) {
+  if (lamps.empty()) return;
+  tell(reports.warning, options.name + ": " + std::to_string(lamps.size()) +
+                            " lamps stand within something opaque all around, and shine through it: " +
+                            lamps.front() + (lamps.size() > 1 ? "; …" : ""));
 }
 
 /// For inMemory().
@@ -38,6 +47,9 @@ light::World flatWorld(const WorldOptions& options, const std::string& cache_fol
   std::vector<std::vector<scene::Mesh>> meshes_of_links;
   if (robot) meshes_of_links = scene::addLooks(*robot, scene.get());
   light::World world(scene, std::make_shared<const scene::Shape>(std::move(flat.shape)), meshes_of_links);
+  // Those of the built-in world are made to fit.
+  if (options.name != scene::kRaceTrack)
+    tellOfHousings(options, light::fitToSurroundings(world, &scene->lamps), reports);
   if (robot) {
     for (const scene::RobotLink& link : robot->links) world.lamps_of_bodies.push_back(link.lamps);
   }

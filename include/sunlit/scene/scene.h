@@ -162,6 +162,8 @@ struct Lamp {
   float outer_rad = kAllAround_rad;  ///< up to kAllAround_rad, which is no cone at all
   float exponent = 2.0f;             ///< 0 … 100, of the falloff between them
   float radius_m = kUsualRadius_m;  ///< of the ball that its light comes from, 0 … 10: how soft shadows are
+  /// What is nearer than this, or within that ball, is part of the lamp and hides nothing, 0 … 10.
+  float housing_m = 0.0f;
   bool casts_shadows = true;
 
   bool isSpot() const { return outer_rad < kAllAround_rad; }

@@ -23,6 +23,8 @@ class LampBeam {
   /// before it and not below.
   const Eigen::Vector3f& ball() const { return ball_; }
   float radius_m() const { return lamp_.radius_m; }
+  /// What lies nearer, such as its bulb, is part of it and hides nothing.
+  float spared_m() const { return std::max(lamp_.radius_m, lamp_.housing_m); }
   /// How large it shows in surfaces that mirror it.
   float shownRadius_m() const { return shown_radius_m_; }
   bool isBounced() const { return bounced_; }

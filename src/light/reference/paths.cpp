@@ -200,8 +200,8 @@ void Paths::addLamp(const LampBeam& lamp, int bounce) {
     if (!vertex.faces(towards)) continue;
     const Eigen::Array3f weight = directReflectance(vertex.reflection, towards, 0.0f) * lamp.at(vertex.front);
     if (!(weight.maxCoeff() > 0.0f)) continue;
-    // What lies within the lamp's ball is part of it, and hides nothing.
-    const float ball_m = lamp.radius_m() + rayClearance_m(vertex.front, 0.0f);
+    // What is part of the lamp hides nothing.
+    const float ball_m = lamp.spared_m() + rayClearance_m(vertex.front, 0.0f);
     bundle_.add(vertex.origin(towards), std::max(1.0f - ball_m / distance_m, 1e-6f) * way, i);
     weights_.push_back(paths_[i].throughput * weight);
   }

@@ -6,6 +6,7 @@
 
 #include "built_in_world.h"
 #include "lamp_scene.h"
+#include "sunlit/light/lamp_surroundings.h"
 
 namespace sunlit::light {
 namespace {
@@ -143,6 +144,57 @@ TEST(Lamps, LightThroughWhatLiesInTheirBallOrWhereTheyCastNoShadows) {
   EXPECT_EQ(lit(world, {lamp}, {floorAt(0.3f)})[0], 0.0);
   lamp.casts_shadows = false;
   EXPECT_GT(lit(world, {lamp}, {floorAt(0.3f)})[0], 0.0);
+}
+
+/// As fitToSurroundings() leaves the lamp, in a world of one more material: it glows.
+scene::Lamp fitted(const scene::Lamp& lamp, scene::Scene scene, std::size_t enclosed) {
+  const World world = worldOf(std::move(scene));
+  std::vector<scene::Lamp> lamps = {lamp};
+  EXPECT_EQ(fitToSurroundings(world, &lamps).size(), enclosed);
+  return lamps[0];
+}
+
+TEST(LampSurroundings, KeepABallFromReachingThroughACeiling) {
+  scene::Scene scene;
+  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
+  scene.materials = {paint(0.5f), paint(0.0f, 100.0f)};
+  addPatch(&scene, 0, {-2.0f, -2.0f, 2.03f}, {0.0f, 4.0f, 0.0f}, {4.0f, 0.0f, 0.0f});
+  const scene::Lamp lamp = lampAt({0.0f, 0.0f, 2.0f});
+  scene::Scene with_roof = scene;
+  addPatch(&with_roof, 0, {-2.0f, -2.0f, 2.5f}, {0.0f, 4.0f, 0.0f}, {4.0f, 0.0f, 0.0f});
+  const Looked roof = {{0.0f, 0.0f, 2.5f}, -up, -up, 0};
+  const scene::Lamp below = fitted(lamp, scene, 0);
+  EXPECT_NEAR(below.radius_m, 0.015f, 0.002f);
+  EXPECT_GT(lit(worldOf(with_roof), {lamp}, {roof})[0], 0.0);
+  EXPECT_EQ(lit(worldOf(with_roof), {below}, {roof})[0], 0.0);
+  // A disc that glows below it is its bulb.
+  addPatch(&scene, 1, {-0.1f, -0.1f, 1.97f}, {0.0f, 0.2f, 0.0f}, {0.2f, 0.0f, 0.0f});
+  EXPECT_EQ(fitted(lamp, scene, 0).radius_m, lamp.radius_m);
+}
+
+TEST(LampSurroundings, LetALampShineThroughItsHousing) {
+  scene::Scene scene;
+  scene.materials = {paint(0.5f), paint(0.0f)};
+  addGround(&scene, 0, 100.0f);
+  const scene::Lamp lamp = lampAt({0.0f, 0.0f, 4.0f});
+  scene::Scene housed = scene;
+  addBlock(&housed, 1, {-0.4f, -0.4f, 3.7f}, {0.8f, 0.8f, 0.5f});
+  const World world = worldOf(housed);
+  const Looked floor = floorAt(1.0f);
+  EXPECT_EQ(lit(world, {lamp}, {floor})[0], 0.0);
+  const scene::Lamp shines = fitted(lamp, housed, 1);
+  EXPECT_EQ(lit(world, {shines}, {floor})[0], lit(worldOf(scene), {lamp}, {floor})[0]);
+  // What is farther off than a metre is a room.
+  addBlock(&scene, 1, {-1.2f, -1.2f, 2.8f}, {2.4f, 2.4f, 2.4f});
+  EXPECT_EQ(fitted(lamp, scene, 0).housing_m, 0.0f);
+  // Open below, it throws its shadow.
+  scene::Lamp spot = lamp;
+  spot.outer_rad = 0.3f;
+  spot.inner_rad = 0.2f;
+  scene::Scene shade;
+  shade.materials = {paint(0.5f)};
+  addPatch(&shade, 0, {0.02f, -0.5f, 3.5f}, {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f});
+  EXPECT_EQ(fitted(spot, shade, 0).housing_m, 0.0f);
 }
 
 TEST(Lamps, LookAsByTracedPaths) {

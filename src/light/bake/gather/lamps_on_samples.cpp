@@ -177,7 +177,7 @@ class LampsOnTriangles {
     const float counts = countedCosine(cosine, aim.through);
     if (!(counts > 0.0f)) return;
     const float clearance_m = rayClearance_m(point, distance_m);
-    const float reach = 1.0f - (lamp.radius_m() + clearance_m) / std::max(distance_m, 1e-6f);
+    const float reach = 1.0f - (lamp.spared_m() + clearance_m) / std::max(distance_m, 1e-6f);
     const float off = before ? clearance_m : -clearance_m;
     sights_.push_back({point + off * face_, way, std::max(reach, 0.0f)});
     light_.push_back(counts * lamp.at(point));

@@ -48,7 +48,7 @@ void addLampLight(const LampsOnPlaces& from, const std::vector<LitPlace>& places
       if (!(shares[i] * lamp.brightest() > least_lx[i])) continue;
       if (!(places[i].normal.dot(lamp.position() - places[i].origin) > 0.0f)) continue;
       const Eigen::Vector3f way = lamp.ball() - places[i].origin;
-      const float reach = 1.0f - (lamp.radius_m() + kClear_m) / std::max(way.norm(), 1e-6f);
+      const float reach = 1.0f - (lamp.spared_m() + kClear_m) / std::max(way.norm(), 1e-6f);
       rays.add(i, places[i].origin, std::max(reach, 1e-6f) * way);
     }
     blocked.assign(rays.size(), 0);

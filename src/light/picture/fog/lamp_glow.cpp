@@ -150,9 +150,9 @@ void LampGlow::findShadows(std::size_t lamp, const Visibility& visibility) {
       const Eigen::Vector3f point = scatter_[lamp].middle(towards, from_m, to_m);
       const Eigen::Vector3f way = beam.ball() - point;
       const float distance_m = way.norm();
-      if (distance_m <= beam.radius_m()) continue;
+      if (distance_m <= beam.spared_m()) continue;
       rays.add(static_cast<std::uint32_t>(i * FogSlices::kCount + slice), point,
-               way * ((distance_m - beam.radius_m()) / distance_m));
+               way * ((distance_m - beam.spared_m()) / distance_m));
     }
   }
   std::vector<std::uint8_t> blocked(rays.size());

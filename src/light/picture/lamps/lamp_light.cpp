@@ -168,8 +168,8 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
       if (++sample == surface.samples) sample = 0;
       const Eigen::Vector3f middle = beam.ball() - rayStart(tile, at);
       const float distance_m = middle.norm();
-      // What lies within the lamp's ball, such as its bulb, is part of it and hides nothing.
-      if (distance_m <= beam.radius_m() + surface.clearance_m) {
+      // What is part of the lamp hides nothing.
+      if (distance_m <= beam.spared_m() + surface.clearance_m) {
         ++target.lit;
         continue;
       }
@@ -177,7 +177,7 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
       const Eigen::Vector3f aside =
           LampBeam::across(middle * per_m) *
           (beam.radius_m() * points[static_cast<std::size_t>((target.cast + first) % kPoints)]);
-      const float reach = 1.0f - (beam.radius_m() + surface.clearance_m) * per_m;
+      const float reach = 1.0f - (beam.spared_m() + surface.clearance_m) * per_m;
       rays.add(k, rayStart(tile, at, surface, middle), reach * (middle + aside));
     }
   }
@@ -304,8 +304,7 @@ Eigen::Array3f LampLight::throughVeils(const LampBeam& beam, const Tile& tile, c
     const std::size_t at = surface.first_sample + k;
     const Eigen::Vector3f origin = rayStart(tile, at, surface, beam.ball() - rayStart(tile, at));
     const Eigen::Vector3f way = beam.ball() - origin;
-    // What lies within the lamp's ball is part of it.
-    const Visibility::Sight sight{origin, way, 0.0f, 1.0f - beam.radius_m() / std::max(way.norm(), 1e-6f)};
+    const Visibility::Sight sight{origin, way, 0.0f, 1.0f - beam.spared_m() / std::max(way.norm(), 1e-6f)};
     if (!(sight.far > 0.0f)) {
       through += 1.0f;
     } else {
