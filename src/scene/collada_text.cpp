@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "scene/collada_tags.h"
 
@@ -87,7 +90,51 @@ CountedLines linesOf(const std::string& name, const std::string& tag, std::size_
   return lines;
 }
 
+/// What primitives may name as their material.
+std::set<std::string> knownMaterials(const std::string& text) {
+  std::set<std::string> known;
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
+    if (name == "instance_material") known.insert(valueInTag(tag, "symbol"));
+    if (name == "material") known.insert(valueInTag(tag, "id"));
+  });
+  known.erase("");
+  return known;
+}
+
 }  // namespace
+
+std::string withBareMaterials(const std::string& text) {
+  static const std::set<std::string> kPrimitives = {"triangles", "polylist",  "polygons",
+                                                    "trifans",   "tristrips", "lines"};
+  const std::size_t effects = text.find("</library_effects>"), materials = text.find("</library_materials>");
+  if (effects == std::string::npos || materials == std::string::npos) return text;
+  const std::set<std::string> known = knownMaterials(text);
+  const std::string quoted = '"' + std::string(kBareMaterial) + '"';
+  std::map<std::size_t, std::pair<std::size_t, std::string>> changes;  // by place: how much goes, what comes
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {
+    if (kPrimitives.count(name) == 0 || known.count(valueInTag(tag, "material")) == 1) return;
+    const auto [begin, length] = placeInTag(tag, "material");
+    if (begin != std::string::npos) {
+      changes[at + begin] = {length, kBareMaterial};
+    } else {
+      changes[at + 1 + name.size()] = {0, " material=" + quoted};
+    }
+  });
+  if (changes.empty()) return text;
+  const std::string effect = std::string(kBareMaterial) + ", effect";
+  changes[effects] = {0, "<effect id=\"" + effect +
+                             "\"><profile_COMMON><technique sid=\"common\"><lambert/></technique>"
+                             "</profile_COMMON></effect>"};
+  changes[materials] = {0, "<material id=" + quoted + " name=" + quoted + "><instance_effect url=\"#" +
+                               effect + "\"/></material>"};
+  std::string mended;
+  std::size_t copied = 0;
+  for (const auto& [at, change] : changes) {
+    mended.append(text, copied, at - copied).append(change.second);
+    copied = at + change.first;
+  }
+  return mended.append(text, copied, std::string::npos);
+}
 
 std::string withCountedLines(const std::string& text) {
   std::string mended;

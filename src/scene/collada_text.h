@@ -19,6 +19,13 @@ std::string withoutAnimations(const std::string& text);
 /// draws them, and Assimp takes memory for what is counted.
 std::string withCountedLines(const std::string& text);
 
+/// Name of the material of what has none in a file that has some.
+constexpr const char* kBareMaterial = "sunlit: without a material";
+
+/// `text` in which what has no material, or one that is bound nowhere and is in no library, has that of this
+/// name: Assimp gives it the first of the library. Lines stay where they are.
+std::string withBareMaterials(const std::string& text);
+
 /// `text` without comments, without blanks between the tag of a colour and its numbers, and without holes;
 /// and pictures without a file have one that is not there, called as the image is.
 ColladaText readableCollada(const std::string& text);

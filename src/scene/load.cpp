@@ -87,6 +87,7 @@ std::string fileOf(const std::string& world, const SearchPath& search_path) {
   const std::string file = std::filesystem::is_directory(*found.file) ? worldIn(*found.file) : *found.file;
   image::requireNoDevice(file);
   if (isOneOf(extensionOf(file), {".world", ".sdf", ".urdf", ".dae", ".gltf", ".glb", ".obj"})) return file;
+  refuseMacros(file);
   throw std::runtime_error(file +
                            ": cannot tell its format; its name must end in .world, .sdf, .urdf, .dae, .gltf, "
                            ".glb or .obj");

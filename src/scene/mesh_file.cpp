@@ -250,6 +250,7 @@ ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, 
   for (const std::string& material : effects.set_apart)
     builder.warn("materials set parameters of their effects by <setparam>, which is not read",
                  material + " of " + file);
+  text = withBareMaterials(text);
   if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return effects;
   const ColladaText readable = readableCollada(text);
   const aiScene* const scene =
@@ -319,6 +320,11 @@ void leaveCoordinates(bool of_own_material, MeshPart& part) {
 
 std::string extensionOf(const std::string& file) {
   return lowerCase(std::filesystem::path(file).extension().string());
+}
+
+void refuseMacros(const std::string& file) {
+  if (extensionOf(file) == ".xacro")
+    throw std::runtime_error(file + ": this is a macro file; turn it into a URDF or a world first, by xacro");
 }
 
 std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,

@@ -36,6 +36,8 @@ void leaveCoordinates(bool of_own_material, MeshPart& part);
 
 /// The ending of a file's name in lower case, with its dot; empty if it has none.
 std::string extensionOf(const std::string& file);
+/// Throws std::runtime_error if it is a macro file (.xacro), which is none of a world or robot yet.
+void refuseMacros(const std::string& file);
 
 /// Reads `file`; its materials and textures go to `builder`, and with kAsDeclared, which is for files that
 /// are a world of their own, its lights, too. Throws std::runtime_error naming the file and what is wrong.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/collada_text.h"
 #include "scene/color.h"
 #include "scene/mesh_file.h"
 #include "scene/mesh_texture.h"
@@ -77,6 +78,7 @@ bool isOfLibrary(const aiMaterial& source, const MeshFileContext& context) {
 
 /// Whether Assimp gave it to a mesh whose file has none: files may call theirs alike.
 bool isBare(const aiMaterial& source, const MeshFileContext& context) {
+  if (extensionOf(context.file) == ".dae" && nameOf(source) == kBareMaterial) return true;
   if (nameOf(source) != AI_DEFAULT_MATERIAL_NAME || isOfLibrary(source, context)) return false;
   int shading = 0;  // which all effects of COLLADA have
   return extensionOf(context.file) != ".dae" ||

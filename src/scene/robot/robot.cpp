@@ -56,9 +56,7 @@ Robot loadRobot(const std::string& file, const SearchPath& search_path) {
     const std::string text = utf8Of({std::istreambuf_iterator<char>(stream), {}}, *found.file);
     return parseUrdf(text, *found.file, search_path);
   }
-  if (extension == ".xacro") {
-    throw std::runtime_error(*found.file + ": this is a macro file; turn it into a URDF first, by xacro");
-  }
+  refuseMacros(*found.file);
   throw std::runtime_error(*found.file +
                            ": cannot tell its format; its name must end in .urdf, .xml or .sdf");
 }

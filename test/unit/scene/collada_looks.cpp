@@ -51,6 +51,25 @@ TEST_F(ColladaLooks, WithoutAMaterialAreNeutralAndWhiteUnderColoursOfVertices) {
   EXPECT_NEAR(materialOf(loaded(text)).base_color.value[0], 0.31855f, 1e-4f);
 }
 
+TEST_F(ColladaLooks, WithoutAMaterialHaveNoneOfTheOthersOfTheirFile) {
+  const std::string whole = colladaTriangle("<diffuse><color>0.8 0 0 1</color></diffuse>",
+                                            colladaInput("u", 0) + colladaInput("w", 1), "");
+  EXPECT_GT(materialOf(loaded(whole)).base_color.value[0], 0.5f);
+  for (const std::string none : {"", "material='unbound' "}) {
+    std::string text = whole;
+    replaceIn(text, "material='x' ", none);
+    EXPECT_TRUE((materialOf(loaded(text)).base_color.value == kNeutral.value).all()) << none;
+    replaceIn(text, "<vertices id='v'>", colladaSource("c", "1 0 0 1 0 0 1 0 0", 3) + "<vertices id='v'>");
+    replaceIn(text, "<p>0 0 0 1 1 1 2 2 2",
+              "<input semantic='COLOR' source='#c' offset='0'/><p>0 0 0 1 1 1 2 2 2");
+    EXPECT_TRUE((materialOf(loaded(text)).base_color.value == 1.0f).all()) << none;
+  }
+  // Named by its id, where nothing binds it.
+  std::string text = whole;
+  replaceIn(text, "material='x' ", "material='m' ");
+  EXPECT_GT(materialOf(loaded(text)).base_color.value[0], 0.5f);
+}
+
 // Section 7, "Determining Transparency (Opacity)": ZERO is where a picture is opaque.
 TEST_F(ColladaLooks, PicturesOfTransparencyAreNoOpacity) {
   image::Rgba8Image picture(2, 1);

@@ -475,6 +475,8 @@ TEST_F(MeshFile, AMissingFileNamesThePlaces) {
 TEST_F(MeshFile, AnUnknownEndingIsAnError) {
   const std::string file = write("world.blend", "");
   EXPECT_EQ(errorOf(file).find(file + ": cannot tell its format"), 0u) << errorOf(file);
+  const std::string macros = write("yard.world.xacro", "");
+  EXPECT_EQ(errorOf(macros).find(macros + ": this is a macro file"), 0u) << errorOf(macros);
 }
 
 TEST_F(MeshFile, InUtf16IsRefusedByName) {
