@@ -52,8 +52,19 @@ def _rows(folder, name):
     return rows
 
 
+def _under_other_suns(folder):
+    """(pose, stream) of pictures that an evaluator leaves out, and had no time to if it was killed."""
+    try:
+        with open(os.path.join(folder, "problems.csv"), encoding="utf-8", errors="replace") as lines:
+            problems = [line.split(",") for line in lines if line.startswith("other_sun,")]
+    except FileNotFoundError:
+        return set()
+    return {(int(fields[1]), fields[3]) for fields in problems if len(fields) > 4 and fields[1].isdecimal() and len(fields[1]) < 19}
+
+
 def first_not_evaluated(folder, pairs, differences, features="{}"):
-    """The first pose that frames.csv, and verified.csv where matches are verified, do not have whole; 0 where there is none.
+    """The first pose that frames.csv, and verified.csv where matches are verified, do not have whole, or under another sun; 0 where
+    there is none.
     `pairs`: as the evaluator gets them; `differences` and `features`: as typed."""
     settings = _detectors(folder)
     expected = [(_rows(folder, "frames.csv"), len(settings.get("differences") or read.differences(differences, features)))]
@@ -61,7 +72,10 @@ def first_not_evaluated(folder, pairs, differences, features="{}"):
         expected.append((_rows(folder, "verified.csv"), len(settings["verify"])))
     if any(rows is None for rows, _ in expected):
         return 0
+    others = _under_other_suns(folder)
     for pose in itertools.count():
         here = [pair for pair in pairs if pose % pair.get("every", 1) == 0]
+        if any((pose, pair[side]) in others for pair in here for side in ("a", "b")):
+            return pose
         if any(rows[pose, pair["a"], pair["b"]] < count for pair in here for rows, count in expected):
             return pose

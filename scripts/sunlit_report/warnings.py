@@ -33,6 +33,7 @@ def warnings(output):
             found.append(f"frames.csv has {names.pair(*key[:2])}, {names.difference(key[2])}, summary.csv has not.")
     found += circumstances.warnings(output)
     found += _without_features(output)
+    found += _under_other_suns(output)
     outcome = tables.mapping(output.run, "outcome")
     if outcome.get("whole") is False:
         found.append(f"The run is not whole: {outcome.get('completed_poses', '?')} poses were completed, "
@@ -64,3 +65,19 @@ def _exposed(output, stream):
         return ""
     return (f" ({np.nanmedian(capture['scene_illuminance']):.3g} lx, exposed at EV100 "
             f"{np.nanmedian(capture['ev100']):.1f})")
+
+
+def _under_other_suns(output):
+    """Whose number is that of captures, since their pairs may be many."""
+    poses, reasons = {}, {}
+    for row in output.problems:
+        if row["kind"] == "other_sun":
+            poses.setdefault(row["where"], []).append(row["pose"])
+            reasons.setdefault(row["where"], row["reason"])
+    return [f"{len(found)} pictures of {names.condition(stream)} were taken under another sun than its first{_spread(found)}, and are "
+            f"left out of all numbers. Of the first of them: {reasons[stream]}." for stream, found in poses.items()]
+
+
+def _spread(poses):
+    known = [pose for pose in poses if pose is not None]
+    return f", at poses from {min(known)} to {max(known)}" if known else ""

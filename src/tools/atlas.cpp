@@ -117,7 +117,7 @@ class Atlas {
     if (wanted.empty()) return;
     std::vector<std::unique_ptr<evaluate::ObservationFile>> files;
     const evaluate::DriveIndex index(openObservations(&files),
-                                     [](std::int64_t, std::int64_t pose) { return pose; });
+                                     [](const evaluate::ObservationKey& key) { return key.pose; });
     StageProgress progress("comparing " + std::to_string(cells) + " cells", cells);
     for (const CompareUnit* unit : wanted) {
       const evaluate::AtlasMap map(index, options_.atlas, {unit->map, "", unit->method});

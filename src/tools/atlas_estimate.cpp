@@ -68,7 +68,7 @@ void standForSeveral(std::size_t poses, std::int64_t number, ObservationFile* fi
 /// Of the first light's map.
 void measureQueries(const AtlasRunOptions& options, const std::vector<std::size_t>& lights,
                     const ObservationFile& file, AtlasCost* cost) {
-  const evaluate::DriveIndex index({&file}, [](std::int64_t, std::int64_t pose) { return pose; });
+  const evaluate::DriveIndex index({&file}, [](const evaluate::ObservationKey& key) { return key.pose; });
   evaluate::AtlasOptions atlas = options.atlas;
   atlas.map_every_m = 0.0;
   atlas.localiser.retrieval = evaluate::Retrieval::kTruth;

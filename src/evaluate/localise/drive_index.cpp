@@ -2,17 +2,17 @@
 
 namespace sunlit::evaluate {
 
-DriveIndex::DriveIndex(const std::vector<const ObservationFile*>& files, const PoseOfStamp& settled) {
+DriveIndex::DriveIndex(const std::vector<const ObservationFile*>& files, const PoseOfObservation& settled) {
   for (const ObservationFile* file : files) {
     const std::vector<ObservationKey> keys = file->keys();
     for (std::size_t i = 0; i < keys.size(); ++i) {
       const ObservationKey& key = keys[i];
-      const std::optional<std::int64_t> pose = settled(key.stamp_ns, key.pose);
+      const std::optional<std::int64_t> pose = settled(key);
       if (!pose) continue;
       const Observed observed{file, i, key.stamp_ns};
       ObservedDrive& drive = drives_[{key.stream, key.detector}];
       const auto [found, is_new] = drive.emplace(*pose, observed);
-      if (!is_new && key.stamp_ns < found->second.stamp_ns) found->second = observed;
+      if (!is_new && key.stamp_ns <= found->second.stamp_ns) found->second = observed;
     }
   }
 }

@@ -21,6 +21,8 @@ Outcome Evaluation::State::finish(const StopToken& broken_off) {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_finished_ = true;
     is_broken_off_ = is_at_once;
+    for (std::size_t s = 0; s < options_.streams.size(); ++s)
+      nameOtherSuns(s, suns_.finish(options_.streams[s]));
     for (const std::int64_t stamp : sets_.openStamps()) close(stamp, poses_.of(stamp), Reason::kEnd);
   }
   waitForWork(broken_off);
@@ -69,7 +71,9 @@ std::size_t Evaluation::State::nameAbsentPoses() {
 bool Evaluation::State::isMended(const Problem& problem, const StampsOfPairs& evaluated) const {
   if (!problem.pose || problem.kind == "duplicate") return false;
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
-    const bool is_meant = problem.kind == "absent" || problem.where == options_.pairs[p].name();
+    const PairSpec& pair = options_.pairs[p];
+    const bool is_of_sun = problem.kind == kOtherSun && (problem.where == pair.a || problem.where == pair.b);
+    const bool is_meant = problem.kind == "absent" || problem.where == pair.name() || is_of_sun;
     if (is_meant && evaluated.count({*problem.pose, p}) != 0) return true;
   }
   return false;

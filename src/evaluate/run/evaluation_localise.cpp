@@ -57,15 +57,22 @@ std::vector<std::string> notesOfPairs(const EvaluationOptions& options) {
   return notes;
 }
 
-/// Whether `rows` are of the pictures in `records`. Others may have localised some of the same names, in
-/// another map, by other detectors or of other times.
-bool areOf(const EvaluationOptions& options, const std::vector<PairRecord>& records,
-           const std::vector<LocalisationRow>& rows) {
-  std::set<std::pair<std::string, std::int64_t>> evaluated;  // streams and stamps
+using Pictures = std::set<std::pair<std::string, std::int64_t>>;  // streams and stamps
+
+Pictures evaluatedPictures(const EvaluationOptions& options, const std::vector<PairRecord>& records) {
+  Pictures evaluated;
   for (const PairRecord& record : records) {
     evaluated.emplace(options.pairs[record.pair].a, record.stamp_ns);
     evaluated.emplace(options.pairs[record.pair].b, record.stamp_ns);
   }
+  return evaluated;
+}
+
+/// Whether `rows` are of the pictures in `records`. Others may have localised some of the same names, in
+/// another map, by other detectors or of other times.
+bool areOf(const EvaluationOptions& options, const std::vector<PairRecord>& records,
+           const std::vector<LocalisationRow>& rows) {
+  const Pictures evaluated = evaluatedPictures(options, records);
   const std::string map = nameOfMap(mapStreamsOf(options.localisation));
   std::set<std::string> detectors;
   for (const LocalisationRow& row : rows) {
@@ -143,7 +150,7 @@ void Evaluation::State::observeSet(const StampSet& set, Work& work) {
   work.truth = observer_->truth().take(set.stamp_ns);
   work.observed.assign(set.streams.size(), 0);
   for (std::size_t s = 0; s < set.streams.size(); ++s) {
-    if (set.streams[s].rgb.empty()) continue;
+    if (set.streams[s].rgb.empty() || suns_.isOther(options_.streams[s], set.stamp_ns)) continue;
     const std::string fault = observer_->faultOf(s, work.truth, set.streams[s].rgb.size());
     work.observed[s] = fault.empty() ? 1 : 0;
     if (!fault.empty()) reportUnlocalised(work, s, fault);
@@ -170,10 +177,15 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
     if (isWholePath()) std::filesystem::remove(file(kObservations));  // the empty one of this run
     return outcome;
   }
+  const Pictures evaluated = evaluatedPictures(options_, records_);
+  const auto hasOtherSun = [&](const ObservationKey& key) {
+    return suns_.isOther(key.stream, key.stamp_ns) ||
+           (suns_.wasOther(key.stream, key.stamp_ns) && evaluated.count({key.stream, key.stamp_ns}) == 0);
+  };
   std::vector<std::unique_ptr<ObservationFile>> merged;
-  const auto counting = [this](std::int64_t stamp, std::int64_t pose) -> std::optional<std::int64_t> {
-    if (!places_.fault(stamp).empty()) return std::nullopt;
-    return poses_.settled(stamp, pose);
+  const auto counting = [&](const ObservationKey& key) -> std::optional<std::int64_t> {
+    if (!places_.fault(key.stamp_ns).empty() || hasOtherSun(key)) return std::nullopt;
+    return poses_.settled(key.stamp_ns, key.pose);
   };
   ObservedDrives drives{{&observer_->observations()}, streamsOf(options_), counting};
   for (const std::string& folder : options_.merge) {
@@ -199,7 +211,8 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   writeLocalisation(file(kRows), result.rows);
   writeLocalisationPoses(file("localisation_poses.csv"), result.rows);
   writeLocalisationSummary(file(kSummary), outcome.summary);
-  if (outcome.isWhole() && isWholePath()) std::filesystem::remove(file(kObservations));
+  // Of a run that is not whole the same run again evaluates the rest.
+  if (outcome.isWhole() && finished_.isWhole() && isWholePath()) std::filesystem::remove(file(kObservations));
   return outcome;
 }
 

@@ -7,6 +7,7 @@
 #include "evaluate/run/evaluation_state.h"
 #include "evaluate/run/run_file.h"
 #include "sunlit/evaluate/files/stream_name.h"
+#include "sunlit/evaluate/same_place.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -127,12 +128,15 @@ void makeFolder(const std::string& path) {
 
 /// Leaves out of `frames`, which `folder` holds, what problems.csv there names: a run that was killed had no
 /// time to take these rows out. They are asked for again. Returns how many lines they had.
-std::size_t leaveOutTwoPlaces(const std::string& folder, const std::vector<PairSpec>& pairs,
-                              std::vector<PairRecord>& frames) {
-  const auto named = pairsOfTwoPlaces(folder);
+std::size_t leaveOutNamed(const std::string& folder, const std::vector<PairSpec>& pairs,
+                          std::vector<PairRecord>& frames) {
+  const auto of_two_places = problemsOf(kTwoPlaces, folder), of_other_suns = problemsOf(kOtherSun, folder);
   std::size_t dropped_lines = 0;
   const auto is_left_out = [&](const PairRecord& record) {
-    if (named.count({record.stamp_ns, pairs[record.pair].name()}) == 0) return false;
+    const PairSpec& pair = pairs[record.pair];
+    const bool has_other_sun = of_other_suns.count({record.stamp_ns, pair.a}) != 0 ||
+                               of_other_suns.count({record.stamp_ns, pair.b}) != 0;
+    if (!has_other_sun && of_two_places.count({record.stamp_ns, pair.name()}) == 0) return false;
     dropped_lines += record.values.size();
     return true;
   };
@@ -177,7 +181,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
 // Reads what a run left in `folder`; the lines of a torn end that it had to leave out.
 std::size_t Evaluation::State::takeUp(const std::string& folder) {
   LoadedFrames loaded = loadFrames(folder + "/frames.csv", layout_);
-  loaded.dropped_lines += leaveOutTwoPlaces(folder, options_.pairs, loaded.records);
+  loaded.dropped_lines += leaveOutNamed(folder, options_.pairs, loaded.records);
   loaded.dropped_lines += takeUpVerified(folder, loaded.records);
   if (folder != options_.output_dir) record_files_->merge(folder, poses_);
   for (PairRecord& record : loaded.records) {
@@ -186,6 +190,7 @@ std::size_t Evaluation::State::takeUp(const std::string& folder) {
   }
   // Images that were not evaluated have their place among the others, too.
   for (const auto& [stamp, pose] : posesOfProblems(folder)) poses_.remember(stamp, pose);
+  for (const auto& [stamp, stream] : problemsOf(kOtherSun, folder)) suns_.noteEarlier(stream, stamp);
   return loaded.dropped_lines;
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sunlit/evaluate/same_place.h"
-
 namespace sunlit::evaluate {
 namespace {
 
@@ -156,6 +154,11 @@ void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
   if (is_finished_) return;
   poses_.learn(capture.stamp_ns, capture.pose);
   record_files_->add(options_.streams.at(stream), capture);
+  if (!capture.utc && !capture.utc_text.empty())
+    report(
+        {"unusable", capture.pose, capture.stamp_ns, options_.streams[stream],
+         "utc is \"" + capture.utc_text + "\", so that nobody can tell whether its sun was set meanwhile"});
+  nameOtherSuns(stream, suns_.add(options_.streams[stream], capture));
   closeIfWhole(capture.stamp_ns);
 }
 
@@ -231,7 +234,7 @@ bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::o
     report({"size_mismatch", pose, set.stamp_ns, where, size(a.rgb) + " against " + size(b.rgb)});
     return false;
   }
-  if (isOfTwoPlaces(set.stamp_ns, pose, pair)) return false;
+  if (isLeftOut(set.stamp_ns, pose, pair)) return false;
   if (!pose) {
     ++counts.unplaced;
     report({"unplaced", pose, set.stamp_ns, where,
@@ -274,28 +277,6 @@ void Evaluation::State::withdraw(std::int64_t stamp_ns, std::size_t pair) {
   --(held_.count({found->pose, pair}) != 0 ? counts.resumed : counts.evaluated);
   records_.erase(found);
   withdrawVerified(stamp_ns, pair);
-}
-
-// Counts and names it where it is. A stream is where it is itself.
-bool Evaluation::State::isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::int64_t> pose,
-                                      std::size_t pair) {
-  const std::string fault = places_.fault(stamp_ns);
-  if (isSelfTested(pair) || fault.empty()) return false;
-  ++counts_.pairs[pair].two_places;
-  report({kTwoPlaces, pose, stamp_ns, options_.pairs[pair].name(), fault});
-  return true;
-}
-
-// What was evaluated before the second pose came. What earlier runs evaluated is not of this run's images.
-void Evaluation::State::separate(std::int64_t stamp_ns) {
-  std::vector<PairRecord> evaluated;
-  for (const PairRecord& record : records_) {
-    if (record.stamp_ns == stamp_ns && held_.count({record.pose, record.pair}) == 0)
-      evaluated.push_back(record);
-  }
-  for (const PairRecord& record : evaluated) {
-    if (isOfTwoPlaces(stamp_ns, record.pose, record.pair)) withdraw(stamp_ns, record.pair);
-  }
 }
 
 void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason) {

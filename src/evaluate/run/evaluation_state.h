@@ -17,13 +17,14 @@
 #include "evaluate/run/extreme_poses.h"
 #include "evaluate/run/observer.h"
 #include "evaluate/run/one_place.h"
+#include "evaluate/run/one_sun.h"
 #include "evaluate/run/pose_index.h"
+#include "evaluate/run/pose_work.h"
 #include "evaluate/run/record_files.h"
 #include "evaluate/run/stamp_sets.h"
 #include "evaluate/run/work_queue.h"
 #include "sunlit/evaluate/comparisons/measured.h"
 #include "sunlit/evaluate/run/evaluation.h"
-#include "sunlit/evaluate/verify/lost_features.h"
 #include "sunlit/evaluate/verify/verified_file.h"
 
 namespace sunlit::evaluate {
@@ -57,30 +58,8 @@ class Evaluation::State {
  private:
   enum class Reason { kWhole, kEnd, kMemory };
   using StampsOfPairs = std::map<std::pair<std::int64_t, std::size_t>, std::int64_t>;  // by pose and pair
-  /// Images of one set that go to the comparer.
-  struct Work {
-    std::int64_t pose = 0;
-    std::int64_t stamp_ns = 0;
-    std::vector<cv::Mat> images;  // by stream
-    std::vector<std::size_t> pairs;
-    std::vector<std::size_t> pictures;  // streams whose image is kept
-    bool is_drawn = false;              // which matches are right
-    GroundTruth::View truth;
-    std::vector<char> observed;  // by stream: its features are kept to localise by
-    std::size_t bytes = 0;
-  };
-
-  /// What comes of a Work, by pair and then by difference, or by detector that is verified.
-  struct Values {
-    std::vector<std::vector<DifferenceValue>> differences;
-    std::vector<std::vector<Verified>> verified;
-    std::vector<std::vector<LostFeatures>> lost;
-    std::vector<std::vector<cv::Mat>> drawn;         // empty where nothing is drawn
-    std::vector<std::optional<std::string>> faults;  // of pairs that could not be compared
-    std::map<std::size_t, std::string> unobserved;  // by stream: which of its detectors have nothing, and why
-    std::vector<std::vector<char>> is_featureless;  // [stream][difference]
-  };
-
+  using Work = PoseWork;
+  using Values = PoseValues;
   static constexpr const char* kLostFile = "lost_features.bin";
   std::string file(const std::string& name) const { return options_.output_dir + "/" + name; }
   void takeUpEarlierRuns();
@@ -103,6 +82,9 @@ class Evaluation::State {
   bool takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair);
   void withdraw(std::int64_t stamp_ns, std::size_t pair);
   bool isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
+  bool isOfOtherSun(std::int64_t stamp_ns, std::size_t pair);
+  bool isLeftOut(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
+  void nameOtherSuns(std::size_t stream, const std::vector<OtherSun>& others);
   void separate(std::int64_t stamp_ns);
   bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
   bool isSample(std::int64_t pose) const;
@@ -167,6 +149,7 @@ class Evaluation::State {
   PoseIndex poses_;
   StampSets sets_;
   OnePlace places_;
+  Suns suns_;
   Counts counts_;
   std::vector<PairRecord> records_;
   std::vector<VerifiedRecord> verified_;  // of the same stamps and pairs, where matches are verified

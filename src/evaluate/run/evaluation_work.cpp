@@ -165,13 +165,13 @@ void Evaluation::State::giveUp(const Work& work) {
 }
 
 // The i-th pair of `work`. None where there is nothing to keep: the comparison failed, another stamp
-// counts by now, or its images turned out to be of two places. The rows of frames.csv come last: without
-// them, whoever takes up a killed run asks for the pair again.
+// counts by now, or its images turned out to be of two places or suns. The rows of frames.csv come last:
+// without them, whoever takes up a killed run asks for the pair again.
 std::optional<PairRecord> Evaluation::State::keep(const Work& work, const Values& values, std::size_t i) {
   const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values.differences[i]};
   const std::lock_guard<std::mutex> lock(mutex_);
   if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return std::nullopt;
-  if (isOfTwoPlaces(record.stamp_ns, record.pose, record.pair)) return std::nullopt;
+  if (isLeftOut(record.stamp_ns, record.pose, record.pair)) return std::nullopt;
   if (values.faults[i]) {
     ++counts_.pairs[record.pair].failed;
     report({"failed", record.pose, record.stamp_ns, options_.pairs[record.pair].name(), *values.faults[i]});

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "evaluate/run/record_files.h"
+#include "sunlit/evaluate/same_place.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -26,7 +27,7 @@ PathFile::PathFile(const std::string& folder, const PoseIndex& poses)
 // A run that was killed had no time to take out places of stamps that problems.csv names.
 void PathFile::read(const std::string& folder) {
   std::set<std::int64_t> of_two;
-  for (const auto& [stamp, pair] : pairsOfTwoPlaces(folder)) of_two.insert(stamp);
+  for (const auto& [stamp, pair] : problemsOf(kTwoPlaces, folder)) of_two.insert(stamp);
   forEachCsvRow(folder + "/path.csv", kHeader, [&](const std::vector<std::string>& f) {
     const PlaceRecord place{parseStamp(f[1]), parseNumber(f[2]), parseNumber(f[3]), parseNumber(f[4]),
                             parseNumber(f[5])};

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "sunlit/evaluate/files/stream_name.h"
-#include "sunlit/evaluate/same_place.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -86,12 +85,13 @@ LeftOutPlaces RecordFiles::finish(const std::vector<std::string>& streams,
   return path_.finish(is_of_two_places);
 }
 
-std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::string& folder) {
-  std::set<std::pair<std::int64_t, std::string>> pairs;
+std::set<std::pair<std::int64_t, std::string>> problemsOf(const std::string& kind,
+                                                          const std::string& folder) {
+  std::set<std::pair<std::int64_t, std::string>> named;
   forEachCsvRow(folder + "/problems.csv", kProblemsHeader, [&](const std::vector<std::string>& f) {
-    if (f[0] == kTwoPlaces && !f[2].empty()) pairs.emplace(parseStamp(f[2]), f[3]);
+    if (f[0] == kind && !f[2].empty()) named.emplace(parseStamp(f[2]), f[3]);
   });
-  return pairs;
+  return named;
 }
 
 std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder) {

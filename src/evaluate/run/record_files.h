@@ -60,8 +60,8 @@ inline constexpr const char* kUnexpected = "unexpected";
 /// Poses by the stamps of images that problems.csv of `folder` names, but of unexpected ones.
 std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder);
 
-/// Stamps and names of pairs of two places, by problems.csv of `folder`.
-std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::string& folder);
+/// Stamps and places, a stream or a pair, of problems of one kind, by problems.csv of `folder`.
+std::set<std::pair<std::int64_t, std::string>> problemsOf(const std::string& kind, const std::string& folder);
 
 /// problems.csv of this run and of those that it takes up. Each problem stands there once, however often it
 /// was met.

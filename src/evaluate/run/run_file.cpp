@@ -110,7 +110,8 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
          << ", duplicate: " << c.duplicate << ", out_of_order: " << c.out_of_order
          << ", undecodable: " << c.undecodable << ", late: " << c.late << ", dropped: " << c.dropped
          << ", lost: " << c.lost << ", unexpected: " << c.unexpected << ", lossy: " << c.lossy
-         << ", no_features: " << c.no_features << ", unlocalised: " << c.unlocalised << "}\n";
+         << ", no_features: " << c.no_features << ", other_sun: " << c.other_sun
+         << ", unlocalised: " << c.unlocalised << "}\n";
   }
   text << "  pairs:\n";
   for (std::size_t i = 0; i < options.pairs.size(); ++i) {
@@ -119,7 +120,8 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
          << ", resumed: " << c.resumed << ", missing_partner: " << c.missing_partner
          << ", undecodable: " << c.undecodable << ", size_mismatch: " << c.size_mismatch
          << ", dropped: " << c.dropped << ", failed: " << c.failed << ", unplaced: " << c.unplaced
-         << ", duplicate: " << c.duplicate << ", two_places: " << c.two_places << "}\n";
+         << ", duplicate: " << c.duplicate << ", other_sun: " << c.other_sun
+         << ", two_places: " << c.two_places << "}\n";
   }
   return text.str();
 }

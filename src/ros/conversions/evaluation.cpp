@@ -9,6 +9,7 @@
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/images.h"
 #include "ros/conversions/received_images.h"
+#include "ros/conversions/time.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/ros/frame_names.h"
@@ -27,6 +28,11 @@ evaluate::CaptureRecord captureOf(const Capture& message) {
   record.moon_elevation_deg = message.moon_elevation / kRadPerDeg;
   record.moon_illuminated_fraction = message.moon_illuminated_fraction;
   record.scene_illuminance_lx = message.scene_illuminance;
+  record.utc_text = message.utc;
+  try {
+    record.utc = fromUtc(message.utc);
+  } catch (const std::invalid_argument&) {  // which the evaluation names
+  }
   return record;
 }
 

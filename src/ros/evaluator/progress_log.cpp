@@ -175,12 +175,23 @@ std::string faultOfStamps(const evaluate::StreamCounts& counts) {
          ", so that one counts: does the driver set header.stamp?";
 }
 
+namespace {
+
+std::string faultOfSuns(const evaluate::StreamCounts& counts) {
+  if (counts.other_sun == 0) return "";
+  return std::to_string(counts.other_sun) + " images under another sun than the first, as of " +
+         counts.other_sun_fault;
+}
+
+}  // namespace
+
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome) {
   if (outcome.isWhole()) return "";
-  std::string stamps;
+  std::string of_streams;
   for (std::size_t s = 0; s < options.streams.size(); ++s) {
-    const std::string fault = faultOfStamps(outcome.counts.streams[s]);
-    if (!fault.empty()) stamps += (stamps.empty() ? "" : "; ") + options.streams[s] + ": " + fault;
+    const evaluate::StreamCounts& counts = outcome.counts.streams[s];
+    for (const std::string& fault : {faultOfStamps(counts), faultOfSuns(counts)})
+      if (!fault.empty()) of_streams += (of_streams.empty() ? "" : "; ") + options.streams[s] + ": " + fault;
   }
   std::string line;
   const auto add = [&](const std::string& name, std::size_t count) {
@@ -197,10 +208,11 @@ std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate:
     add("failed" + pair, c.failed);
     add("unplaced" + pair, c.unplaced);
     add("duplicate" + pair, c.duplicate);
+    add("other_sun" + pair, c.other_sun);
     add("two_places" + pair, c.two_places);
   }
-  if (line.empty()) return stamps.empty() ? "no pair of images came at all" : stamps;
-  return stamps + (stamps.empty() ? "" : "; ") + "not evaluated: " + line + "; each is named in " +
+  if (line.empty()) return of_streams.empty() ? "no pair of images came at all" : of_streams;
+  return of_streams + (of_streams.empty() ? "" : "; ") + "not evaluated: " + line + "; each is named in " +
          options.output_dir + "/problems.csv";
 }
 

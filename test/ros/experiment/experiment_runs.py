@@ -14,6 +14,8 @@ import rospy
 import rostest
 import yaml
 from launching import DIFFERENCES, LONG, POSES, WORLD, Launched, Terminal, kill_leftovers, small_experiment
+from std_srvs.srv import Trigger
+from sunlit.srv import SetDateTime
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
 from screen import Screen  # noqa: E402
@@ -182,6 +184,34 @@ class ExperimentRuns(unittest.TestCase):
         self.assertIn("experiment: recorded 20 poses in 1 bag", again.said())
         self.assertIn("done; an earlier run had evaluated all; results in ", again.said())
         self.assertEqual(self.bytes_of(output, "frames.csv"), self.bytes_of(self.output, "frames.csv"))
+
+    def test_a_sun_that_is_set_meanwhile_is_a_failure_that_the_same_run_again_mends(self):
+        output = os.path.join(self.folder, "set_meanwhile")
+        captures = os.path.join(output, "captures.csv")
+        run = small_experiment(output, max_ahead=1)
+        run.wait_for(lambda: os.path.exists(captures) and self.bytes_of(output, "captures.csv").count(b"\nh12,") > 2, "rendered poses")
+        self.assertTrue(run.call("/render/pause", Trigger).success)
+        self.assertTrue(run.call("/h12/sun_position/set_date_time", SetDateTime, year=2024, month=7, day=1, hour=9, timezone=3).success)
+        self.assertTrue(run.call("/render/start", Trigger).success)
+        self.assertNotEqual(run.end(), 0)
+        said = run.said()
+        with open(os.path.join(output, "problems.csv")) as file:
+            others = [row for row in csv.DictReader(file) if row["kind"] == "other_sun"]
+        of_h12 = [int(row["pose"]) for row in others if row["where"] == "h12"]
+        self.assertEqual(of_h12, list(range(of_h12[0], POSES)))
+        self.assertGreater(of_h12[0], 1)
+        reason = ("its sky is of 2024-07-01T06:00:00.000Z, not of 2024-07-01T09:00:00.000Z as by the first capture: was the sun set "
+                  "meanwhile (set_date_time)? ")
+        self.assertTrue(all(row["reason"].startswith(reason) for row in others), others)
+        self.assertEqual({row["where"] for row in others} - {"self_test/h12"}, {"h12"})
+        self.assertEqual(said.count(" h12: %d images under another sun than the first, as of pose %d: %s"
+                                    % (len(of_h12), of_h12[0], reason)), 1, said)
+        self.assertIn("%d other_sun (h10-h12)" % len(of_h12), said)
+        self.assertIn("experiment: FAILED: ", said)
+        again = small_experiment(output)
+        self.assertEqual(again.end(), 0, again.said())
+        self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
+        self.assertNotIn(b"other_sun", self.bytes_of(output, "problems.csv"))
 
     def test_on_a_terminal_the_line_stays_in_place(self):
         terminal = Terminal(24, 100)

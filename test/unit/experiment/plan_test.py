@@ -516,6 +516,10 @@ class Plan(unittest.TestCase):
             with open(os.path.join(folder, "frames.csv"), "w") as frames:
                 frames.write("\n".join(rows) + "\n4,1000.4,h04,h1")  # torn by a crash
             self.assertEqual(begins("[boolean_rgb, orb]"), 2)  # one self-test of pose 2 is missing
+            with open(os.path.join(folder, "problems.csv"), "w") as problems:
+                problems.write("kind,pose,stamp,where,reason\nlost,0,1000.0,h04,\nother_sun,1,1000.1,h04,\"of 9 h, not of 4 h\"\n")
+            self.assertEqual(begins("[boolean_rgb, orb]"), 1)  # it is evaluated, but the evaluator will leave it out
+            os.remove(os.path.join(folder, "problems.csv"))
             # An evaluator without SURF, say, whose `all` are two.
             self.assertEqual(begins("all"), 0)
             with open(os.path.join(folder, "run.yaml"), "w") as run:

@@ -271,6 +271,15 @@ class Files(InFolder):
         self.write("summary.csv", [files.OLD_SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85"])
         self.assertEqual(tables.counts(self.read())[0]["forms"], ["0.84000", tables.MISSING, tables.MISSING])
 
+    def test_pictures_under_another_sun_are_pointed_out_once(self):
+        self.write("frames.csv", made.frames())
+        self.assertFalse([one for one in warnings.warnings(self.read()) if "another sun" in one])
+        self.write("problems.csv", [files.PROBLEMS, *[f"other_sun,{pose},{pose}.5,h04,\"its sky is of noon, not of {pose}\""
+                                                      for pose in (7, 8, 9)]])
+        self.assertEqual([one for one in warnings.warnings(self.read()) if "another sun" in one],
+                         ["3 pictures of 4 h were taken under another sun than its first, at poses from 7 to 9, and are left out of all "
+                          "numbers. Of the first of them: its sky is of noon, not of 7."])
+
     def test_summary_of_other_frames_is_pointed_out(self):
         self.write("frames.csv", made.frames(differences=["sift"], pairs=made.PAIRS[:1]))
         self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])

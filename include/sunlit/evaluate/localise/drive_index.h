@@ -17,9 +17,8 @@
 
 namespace sunlit::evaluate {
 
-/// The number that counts of a pose, from its stamp and the number that it was observed with; nothing where
-/// what was observed then does not count.
-using PoseOfStamp = std::function<std::optional<std::int64_t>(std::int64_t stamp_ns, std::int64_t pose)>;
+/// The number that counts of the pose of an observation; nothing where it does not count.
+using PoseOfObservation = std::function<std::optional<std::int64_t>(const ObservationKey& key)>;
 
 /// Where an observation is.
 struct Observed {
@@ -36,9 +35,9 @@ using ObservedDrive = std::map<std::int64_t, Observed>;
 
 class DriveIndex {
  public:
-  /// Of a pose that was observed twice the earlier stamp counts, of one stamp the first. The files outlive
-  /// this.
-  DriveIndex(const std::vector<const ObservationFile*>& files, const PoseOfStamp& settled);
+  /// Of a pose that was observed twice the earlier stamp counts, of one stamp the last: of a run that was
+  /// taken up, since the one before was not good. The files outlive this.
+  DriveIndex(const std::vector<const ObservationFile*>& files, const PoseOfObservation& settled);
   /// Of `stream` by `detector`; empty where there is none.
   const ObservedDrive& at(const std::string& stream, const std::string& detector) const;
 

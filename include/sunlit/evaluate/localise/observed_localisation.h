@@ -30,7 +30,7 @@ struct ObservedProgress {
 struct ObservedDrives {
   std::vector<const ObservationFile*> files;
   ObservedStreams streams;
-  PoseOfStamp settled;
+  PoseOfObservation settled;
 };
 
 struct ObservedResult {
@@ -43,7 +43,7 @@ struct ObservedResult {
 /// The same rows as Localisation gives for the pictures themselves, by query stream, pose and detector, in
 /// the order of `observed.streams` and `options`. Key frames are chosen of each
 /// stream of the map for itself, in the order of their poses. Of a
-/// pose that was observed twice the earlier stamp counts, of one stamp the first. Runs in parallel, to the
+/// pose that was observed twice the earlier stamp counts, of one stamp the last. Runs in parallel, to the
 /// same bits. Throws Stopped.
 ObservedResult localiseObserved(const ObservedDrives& observed, const LocalisationOptions& options,
                                 const ObservedProgress& progress);

@@ -61,8 +61,8 @@ AtlasView viewOf(int pose, const std::vector<std::string>& lights) {
   return view;
 }
 
-std::int64_t asObserved(std::int64_t, std::int64_t pose) {
-  return pose;
+std::int64_t asObserved(const ObservationKey& key) {
+  return key.pose;
 }
 
 void observeAll(const std::string& path) {

@@ -444,6 +444,43 @@ TEST(EvaluationLocalise, PicturesOfTwoPlacesAreNeitherKeyFrameNorQuery) {
   }
 }
 
+/// A run in which the sun of dusk is set at pose 2, or is not; its captures come with the images, or late.
+LocalisationOutcome setMeanwhile(const TemporaryFolder& folder, bool is_set, bool is_late) {
+  Evaluation evaluation(localising(folder), {});
+  const auto tell = [&](std::int64_t pose) {
+    CaptureRecord capture;
+    capture.pose = pose;
+    capture.stamp_ns = stampOf(pose);
+    capture.utc = Instant().plusSeconds(is_set && pose == 2 ? 3600.0 : 0.0);
+    evaluation.addCapture(1, capture);
+  };
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    if (!is_late) tell(pose);
+    feedTruth(evaluation, pose);
+    // Under another sun nothing is as it should be.
+    feedImages(evaluation, pose, 3, [&](std::int64_t p, std::size_t s) {
+      return is_set && p == 2 && s == 1 ? cv::Mat(cv::Mat::zeros(lit(p, s).size(), CV_8UC3)) : lit(p, s);
+    });
+  }
+  evaluation.waitForRoom(0);
+  for (std::int64_t pose = 0; is_late && pose < kPoses; ++pose) tell(pose);
+  EXPECT_EQ(evaluation.finish().isWhole(), !is_set);
+  return evaluation.localise({});
+}
+
+TEST(EvaluationLocalise, PicturesUnderAnotherSunAreNoQueriesUntilTheSameRunEvaluatesThem) {
+  for (const bool is_late : {false, true}) {
+    const TemporaryFolder folder;
+    const LocalisationOutcome outcome = setMeanwhile(folder, true, is_late);
+    EXPECT_TRUE(outcome.isWhole());
+    EXPECT_EQ(outcome.queries, 14u) << "4 poses of one stream and 3 of another by 2 detectors";
+    EXPECT_EQ(contentOf(folder.file("out/localisation.csv")).find("2,500.200000000,noon,dusk,"),
+              std::string::npos);
+    EXPECT_EQ(setMeanwhile(folder, false, is_late).queries, 16u);
+    EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows()) << is_late;
+  }
+}
+
 TEST(EvaluationLocalise, SaysWhatIsLeftOutSinceItIsNotCompared) {
   const TemporaryFolder folder;
   EvaluationOptions options = localising(folder);

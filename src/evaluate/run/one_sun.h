@@ -1,0 +1,81 @@
+/// Whether the captures of a condition were taken under one sun.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sunlit/evaluate/run/records.h"
+
+namespace sunlit::evaluate {
+
+/// Problem::kind of a capture under another sun than that of its condition.
+inline constexpr const char* kOtherSun = "other_sun";
+
+/// A capture under another sun.
+struct OtherSun {
+  std::int64_t stamp_ns = 0;
+  std::string fault;
+};
+
+/// The captures of one condition. Its sun is that of the first: it stands still, or its civil time goes on
+/// with the stamps at one rate, which nobody tells and they show. A clock that is set meanwhile jumps.
+class OneSun {
+ public:
+  /// Of a capture whose `utc` is known. Returns the captures of which it is known by now, and was not before,
+  /// that their sun is another.
+  std::vector<OtherSun> add(const CaptureRecord& capture);
+  /// No more will come: the same of those that waited for more.
+  std::vector<OtherSun> finish();
+
+ private:
+  struct Seen {
+    std::int64_t stamp_ns;
+    Instant utc;
+    std::string text;  // of utc
+  };
+  static double rateOf(const Seen& a, const Seen& b);
+  static bool isOnLine(const Seen& a, const Seen& b, const Seen& c);
+  static bool isNear(const Seen& a, const Seen& b);
+  bool isAlone() const { return first_->stamp_ns == latest_->stamp_ns; }
+  bool isBeginning() const;
+  bool beganLate() const;
+  std::vector<OtherSun> settleBeginning();
+  std::vector<OtherSun> goOnFrom(const Seen& first, const Seen& latest);
+  void takeForFast();
+  std::vector<OtherSun> takeDoubtful();
+  std::string faultOf(const Seen& seen) const;
+
+  std::optional<Seen> first_, latest_;  // of those under the one sun; they give the rate
+  std::vector<Seen> doubtful_;          // none of them goes on from these
+  bool is_settled_ = false;             // whatever is doubtful from now on is of another sun
+};
+
+/// Those of all conditions, by their names.
+class Suns {
+ public:
+  /// As OneSun::add(); nothing where `utc` is unknown. Of captures of one stamp the first counts.
+  std::vector<OtherSun> add(const std::string& stream, const CaptureRecord& capture);
+  std::vector<OtherSun> finish(const std::string& stream);
+  /// As far as known by now.
+  bool isOther(const std::string& stream, std::int64_t stamp_ns) const {
+    return others_.count({stream, stamp_ns}) > 0;
+  }
+  /// An earlier run found so. That is of its own pictures, not of those that come now.
+  void noteEarlier(const std::string& stream, std::int64_t stamp_ns) { earlier_.emplace(stream, stamp_ns); }
+  bool wasOther(const std::string& stream, std::int64_t stamp_ns) const {
+    return earlier_.count({stream, stamp_ns}) > 0;
+  }
+
+ private:
+  using Captures = std::set<std::pair<std::string, std::int64_t>>;  // by stream and stamp
+  std::vector<OtherSun> kept(const std::string& stream, std::vector<OtherSun> found);
+  std::map<std::string, OneSun> suns_;
+  Captures come_, others_, earlier_;
+};
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "evaluate/run/one_sun.h"
+#include "unit/evaluate/run/small_evaluation.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+constexpr double kHour_s = 3600.0;
+const std::string kLeftOut =
+    ": was the sun set meanwhile (set_date_time)? Left out; the same run again, with the sun let alone, "
+    "evaluates it";
+
+/// Under the sky of so many seconds after some noon.
+CaptureRecord captureAt(std::int64_t pose, double after_noon_s) {
+  CaptureRecord capture;
+  capture.pose = pose;
+  capture.stamp_ns = stampOf(pose);
+  capture.utc = Instant().plusNanoseconds(std::llround(after_noon_s * 1e3) * 1000000);  // as it is sent
+  capture.utc_text = "noon+" + std::to_string(std::llround(after_noon_s));
+  return capture;
+}
+
+/// Poses of those of another sun, where that of each pose shows so many seconds after noon.
+std::vector<std::int64_t> otherSunsOf(std::int64_t poses,
+                                      const std::function<double(std::int64_t)>& clock_s) {
+  Suns suns;
+  std::vector<std::int64_t> others;
+  const auto note = [&](const std::vector<OtherSun>& found) {
+    for (const OtherSun& other : found) others.push_back((other.stamp_ns - stampOf(0)) / kFrameNs);
+  };
+  for (std::int64_t pose = 0; pose < poses; ++pose) note(suns.add("h12", captureAt(pose, clock_s(pose))));
+  note(suns.finish("h12"));
+  return others;
+}
+
+using Poses = std::vector<std::int64_t>;
+
+TEST(OneSun, IsThatOfTheFirstCaptureWheneverItIsSet) {
+  const auto is_set_at = [](std::int64_t first, std::int64_t last) {
+    return otherSunsOf(40,
+                       [=](std::int64_t pose) { return pose >= first && pose <= last ? -3 * kHour_s : 0.0; });
+  };
+  EXPECT_EQ(is_set_at(40, 40), Poses());
+  EXPECT_EQ(is_set_at(30, 32), (Poses{30, 31, 32})) << "and set back";
+  EXPECT_EQ(is_set_at(39, 39), (Poses{39})) << "the last";
+  EXPECT_EQ(is_set_at(3, 4), (Poses{3, 4}));
+  EXPECT_EQ(is_set_at(3, 3), (Poses{3}));
+  EXPECT_EQ(is_set_at(1, 1), (Poses{1}));
+  EXPECT_EQ(is_set_at(1, 39).size(), 39u);
+}
+
+TEST(OneSun, MovesAlongAtAnyRate) {
+  for (const double rate : {0.0, 0.001, 0.013, 1.0, 15.0, 600.0, -600.0, 86400.0, 1e7}) {
+    const auto clock = [&](std::int64_t pose) { return rate * 0.1 * static_cast<double>(pose); };
+    EXPECT_EQ(otherSunsOf(2000, clock), Poses()) << rate;
+    for (const std::int64_t first : {3, 1500}) {
+      const auto set = [&](std::int64_t pose) { return clock(pose) + (pose >= first ? 5 * kHour_s : 0.0); };
+      EXPECT_EQ(otherSunsOf(first + 2, set), (Poses{first, first + 1})) << rate;
+    }
+  }
+}
+
+TEST(OneSun, MayBeOfAClockThatBeginsWithItsFirstSubscriber) {
+  for (const double begins : {0.4, 1.0, 5.7}) {
+    const auto clock = [&](std::int64_t pose) {
+      return 60.0 * std::max(0.0, static_cast<double>(pose) - begins);
+    };
+    EXPECT_EQ(otherSunsOf(30, clock), Poses()) << begins;
+  }
+  const auto set_running = [](std::int64_t pose) {
+    return pose < 20 ? 0.0 : 60.0 * static_cast<double>(pose - 19);
+  };
+  EXPECT_EQ(otherSunsOf(23, set_running), (Poses{20, 21, 22})) << "not after seconds";
+}
+
+TEST(OneSun, OfTwoCapturesAloneNobodyCanTell) {
+  EXPECT_EQ(otherSunsOf(2, [](std::int64_t pose) { return kHour_s * static_cast<double>(pose); }), Poses());
+}
+
+TEST(OneSun, IsToldByWhatWasExpectedAndSeen) {
+  OneSun moving;
+  std::vector<OtherSun> others;
+  for (std::int64_t pose = 0; pose < 4; ++pose)
+    others = moving.add(captureAt(pose, 60.0 * static_cast<double>(pose) + (pose == 3 ? kHour_s : 0.0)));
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_EQ(others[0].fault,
+            "its sky is of noon+3780, not of noon+0 + 180 s as by the first capture" + kLeftOut);
+}
+
+struct SetMeanwhile {
+  bool is_late = false;  ///< captures come once all is compared
+  bool is_set = true;    ///< the sun of h04, from pose 2 on
+  bool is_killed = false;
+};
+
+Outcome evaluated(const TemporaryFolder& folder, const SetMeanwhile& how, std::string* notes = nullptr) {
+  EvaluationOptions options = optionsFor(folder);
+  options.streams = {"h04", "h12"};
+  options.poses.count = 4;
+  options.frame_rate = 10.0;
+  options.stamp_start_ns = stampOf(0);
+  EvaluationCallbacks callbacks;
+  if (notes != nullptr) callbacks.note = [notes](const std::string& line) { *notes += line + "\n"; };
+  Evaluation evaluation(options, callbacks);
+  const auto tell = [&](std::int64_t pose) {
+    evaluation.addCapture(0, captureAt(pose, how.is_set && pose >= 2 ? kHour_s : -8 * kHour_s));
+    evaluation.addCapture(1, captureAt(pose, 0.0));
+  };
+  for (std::int64_t pose = 0; pose < 4; ++pose) {
+    if (!how.is_late) tell(pose);
+    feedPose(evaluation, pose);
+  }
+  evaluation.waitForRoom(0);
+  for (std::int64_t pose = 0; how.is_late && pose < 4; ++pose) tell(pose);
+  EXPECT_TRUE(evaluation.isComplete());
+  return how.is_killed ? Outcome() : evaluation.finish();
+}
+
+TEST(OneSun, PicturesUnderAnotherAreNotComparedAndNamed) {
+  for (const bool is_late : {false, true}) {
+    const TemporaryFolder folder;
+    std::string notes;
+    const Outcome outcome = evaluated(folder, {is_late}, &notes);
+    EXPECT_FALSE(outcome.isWhole());
+    EXPECT_EQ(outcome.counts.pairs[0].other_sun, 2u) << is_late;
+    EXPECT_EQ(outcome.counts.pairs[0].evaluated, 2u) << is_late;
+    EXPECT_EQ(outcome.counts.streams[0].other_sun, 2u);
+    EXPECT_EQ(outcome.counts.streams[1].other_sun, 0u);
+    const std::string frames = contentOf(folder.file("out/frames.csv"));
+    EXPECT_TRUE(hasLine(frames, "1,500.100000000,h04,h12,"));
+    EXPECT_FALSE(hasLine(frames, "2,500.200000000,")) << frames;
+    const std::string fault =
+        "its sky is of noon+3600, not of noon+-28800 as by the first capture" + kLeftOut;
+    const std::string problems = contentOf(folder.file("out/problems.csv"));
+    for (const char* place : {"other_sun,2,500.200000000,h04,", "other_sun,3,500.300000000,h04,"})
+      EXPECT_TRUE(hasLine(problems, place + ('"' + fault + '"'))) << problems;
+    EXPECT_EQ(notes, "h04: pose 2: " + fault + "\n") << "once";
+    EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("other_sun: 2, two_places: 0}"), std::string::npos);
+  }
+}
+
+TEST(OneSun, IsMendedByTheSameRunAgain) {
+  for (const bool is_killed : {false, true}) {
+    const TemporaryFolder folder;
+    evaluated(folder, {true, true, is_killed});
+    EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "other_sun,2,"));
+    EXPECT_EQ(hasLine(contentOf(folder.file("out/frames.csv")), "2,500.200000000,"), is_killed);
+    const Outcome outcome = evaluated(folder, {true, false});
+    EXPECT_TRUE(outcome.isWhole());
+    EXPECT_EQ(outcome.counts.pairs[0].resumed, 2u);
+    EXPECT_EQ(outcome.counts.pairs[0].evaluated, 2u);
+    EXPECT_EQ(contentOf(folder.file("out/problems.csv")), "kind,pose,stamp,where,reason\n");
+  }
+}
+
+TEST(OneSun, IsNotAskedForWhereCapturesDoNotTell) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(optionsFor(folder), {});
+  for (std::int64_t pose = 0; pose < 4; ++pose) {
+    CaptureRecord capture = captureAt(pose, 0.0);
+    capture.utc.reset();
+    capture.utc_text = pose == 3 ? "noon" : "";
+    evaluation.addCapture(0, capture);
+    feedPose(evaluation, pose);
+  }
+  EXPECT_TRUE(evaluation.finish().isWhole());
+  EXPECT_EQ(
+      contentOf(folder.file("out/problems.csv")),
+      "kind,pose,stamp,where,reason\nunusable,3,500.300000000,h04,\"utc is \"\"noon\"\", so that nobody can "
+      "tell whether its sun was set meanwhile\"\n");
+}
+
+}  // namespace
+}  // namespace sunlit::evaluate
