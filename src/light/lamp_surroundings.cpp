@@ -26,11 +26,11 @@ std::vector<Eigen::Vector3f> directionsOf(const scene::Lamp& lamp) {
   return towards;
 }
 
-/// What stands around one lamp.
-class Surroundings {
+/// From one lamp into its surroundings.
+class LampRays {
  public:
   /// Keeps references.
-  Surroundings(const World& world, const scene::Lamp& lamp)
+  LampRays(const World& world, const scene::Lamp& lamp)
       : world_(world), lamp_(lamp), towards_(directionsOf(lamp)) {}
 
   /// Share of the lamp's directions that nothing stops between `from_m` and kHousing_m.
@@ -78,7 +78,7 @@ std::vector<std::string> fitToSurroundings(const World& world, std::vector<scene
   std::vector<std::string> housed;
   for (scene::Lamp& lamp : *lamps) {
     if (!lamp.casts_shadows || lamp.radius_m >= kHousing_m) continue;
-    const Surroundings around(world, lamp);
+    const LampRays around(world, lamp);
     if (around.open(0.0f) >= kOpen) {
       const float room_m = around.room_m();
       if (room_m < lamp.radius_m) lamp.radius_m = std::max(kOfRoom * room_m, kLeast_m);
