@@ -112,8 +112,7 @@ std::string OneSun::faultOf(const Seen& seen) const {
   const std::string passed = std::abs(passed_s) < kSame_s ? "" : " + " + textOf(std::round(passed_s)) + " s";
   return "its sky is of " + seen.text + ", not of " + first_->text + passed +
          " as by the first capture: was the sun set meanwhile (set_date_time)? Left out; the same run again, "
-         "with "
-         "the sun let alone, evaluates it";
+         "with the sun let alone, evaluates it";
 }
 
 std::vector<OtherSun> Suns::add(const std::string& stream, const CaptureRecord& capture) {
