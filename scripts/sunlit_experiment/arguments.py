@@ -278,6 +278,8 @@ def rendered_of(asked):
                 rendered[name].setdefault(key, {}).update(value)
             elif key in CAMERA:
                 group, row = CAMERA[key]
+                if isinstance(one.get(group), dict) and row in one[group]:
+                    raise BadArgument("conditions", one, f"without both {key} and {group}: {{{row}: …}} in {name}, which are the same")
                 rendered[name].setdefault(group, {})[row] = value
     return _sent(rendered)
 

@@ -144,13 +144,12 @@ def _writer_of(path):
     return None
 
 
-def _await(path, is_free):
+def _await(is_free, refusal):
     """Until nobody else needs a file any more, by what `is_free` says."""
     deadline = time.monotonic() + PATIENCE_S
     while not is_free():
         if time.monotonic() > deadline:
-            pid = _writer_of(path)
-            raise RecordingError(f"{path} is still being written or reindexed, by {f'process {pid}' if pid else 'another user'}")
+            raise RecordingError(refusal())
         time.sleep(LOOK_EVERY_S)
 
 
@@ -167,7 +166,10 @@ def _is_locked(descriptor):
 def _ours(path):
     """Whether a file is still there, once its recorder has closed it and nobody else is about to mend it, as the planner of
     another experiment in the same folder may be."""
-    _await(path, lambda: _writer_of(path) is None)
+    def refusal():
+        pid = _writer_of(path)
+        return f"{path} is still being written or reindexed, by {f'process {pid}' if pid else 'another user'}"
+    _await(lambda: _writer_of(path) is None, refusal)
     try:
         # Some file systems lock only what may be written to.
         descriptor = os.open(path, os.O_RDWR if os.access(path, os.W_OK) else os.O_RDONLY)
@@ -175,7 +177,7 @@ def _ours(path):
         yield False
         return
     try:
-        _await(path, lambda: _is_locked(descriptor))
+        _await(lambda: _is_locked(descriptor), refusal)
         yield os.path.exists(path)
     finally:
         os.close(descriptor)
@@ -200,18 +202,36 @@ def _reindexed(active, bag):
     os.remove(active)
 
 
+def _mend(path, tell):
+    try:
+        with _ours(path) as is_there:
+            if not is_there:
+                return  # its recorder was only late, or another has mended it
+            tell(f"{path} was left by a run that was killed: reindexing it")
+            _reindexed(path, path[:-len(".active")])
+    except RecordingError:
+        raise
+    except Exception as error:  # whatever a torn file makes of its reader
+        tell(f"{path} cannot be reindexed ({error}): it is left as it is, and its poses are rendered again")
+
+
+@contextlib.contextmanager
+def _alone_in(folder):
+    """As the evaluator locks a folder that it writes into: what is recorded beside it, by another user's recorder or in another
+    container, is open where nobody here can see it."""
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        _await(lambda: _is_locked(descriptor), lambda: f"another experiment is writing into {folder}: choose another output folder")
+        yield
+    finally:
+        os.close(descriptor)
+
+
 def mend(folder, tell):
     """Makes ordinary bags of those that a kill left behind as .bag.active. `tell`: is given a line about each."""
-    for entry in sorted(os.scandir(folder), key=lambda entry: entry.name):
-        if not entry.name.startswith(PREFIX) or not entry.name.endswith(ACTIVE):
-            continue
-        try:
-            with _ours(entry.path) as is_there:
-                if not is_there:
-                    continue  # its recorder was only late, or another has mended it
-                tell(f"{entry.path} was left by a run that was killed: reindexing it")
-                _reindexed(entry.path, entry.path[:-len(".active")])
-        except RecordingError:
-            raise
-        except Exception as error:  # whatever a torn file makes of its reader
-            tell(f"{entry.path} cannot be reindexed ({error}): it is left as it is, and its poses are rendered again")
+    left = sorted(entry.path for entry in os.scandir(folder) if entry.name.startswith(PREFIX) and entry.name.endswith(ACTIVE))
+    if not left:
+        return
+    with _alone_in(folder):
+        for path in left:
+            _mend(path, tell)

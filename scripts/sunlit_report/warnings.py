@@ -36,8 +36,11 @@ def warnings(output):
     found += _under_other_suns(output)
     outcome = tables.mapping(output.run, "outcome")
     if outcome.get("whole") is False:
+        before = outcome.get("not_mended") or 0
         found.append(f"The run is not whole: {outcome.get('completed_poses', '?')} poses were completed, "
-                     f"{outcome.get('absent_poses', '?')} are absent. See counters and problems.")
+                     f"{outcome.get('absent_poses', '?')} are absent"
+                     + (f", {before} pairs or pictures lack that earlier or merged runs left out" if before else "")
+                     + ". See counters and problems.")
     return found
 
 

@@ -207,13 +207,19 @@ ParameterReader ParameterReader::withOverrides(const XmlRpcValue& overrides, con
 }
 
 const XmlRpcValue* ParameterReader::find(const std::string& key) const {
+  const std::string last = lastPart(key);
   const XmlRpcValue* found = nullptr;
   for (const auto& layer : layers_) {
     layer->asked.insert(key);
-    if (layer->by_last_part) layer->asked.insert(lastPart(key));
+    if (layer->by_last_part) layer->asked.insert(last);
     if (found != nullptr || !layer->tree.valid()) continue;
     found = descend(layer->tree, key);
-    if (found == nullptr && layer->by_last_part) found = descend(layer->tree, lastPart(key));
+    if (!layer->by_last_part || last == key) continue;
+    const XmlRpcValue* by_last_part = descend(layer->tree, last);
+    if (found != nullptr && by_last_part != nullptr)
+      throw std::invalid_argument("parameters " + layer->name + "/" + key + " and " + layer->name + "/" +
+                                  last + " are both given, and the same");
+    if (found == nullptr) found = by_last_part;
   }
   return found;
 }

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kPackageScheme = "package://";
-constexpr const char* kFileScheme = "file://";
+constexpr const char* kFileScheme = "file:/";  // and, mostly, another slash
 
 bool isThere(const fs::path& path, Wanted wanted) {
   std::error_code error;
@@ -72,7 +72,7 @@ std::vector<std::string> folderAndParents(const std::string& file) {
   std::vector<std::string> folders;
   if (isAddress(file) && file.rfind(kFileScheme, 0) != 0) return folders;
   std::error_code error;
-  const std::string path = isAddress(file) ? withoutScheme(file) : file;
+  const std::string path = file.rfind(kFileScheme, 0) == 0 ? withoutScheme(file) : file;
   fs::path folder = fs::absolute(path, error).lexically_normal().parent_path();
   while (!folder.empty()) {
     folders.push_back(folder.string());

@@ -12,8 +12,12 @@ std::string lowerCase(std::string text) {
 }
 
 std::string withoutScheme(const std::string& uri) {
+  // RFC 8089: of this machine, which may be named, and need not be with a single slash.
+  const std::string local = "file://localhost/", short_form = "file:/";
+  if (uri.rfind(local, 0) == 0) return uri.substr(local.size() - 1);
   const std::size_t end = uri.find("://");
-  return end == std::string::npos ? uri : uri.substr(end + 3);
+  if (end != std::string::npos) return uri.substr(end + 3);
+  return uri.rfind(short_form, 0) == 0 ? uri.substr(short_form.size() - 1) : uri;
 }
 
 std::string withoutEscapes(const std::string& text) {

@@ -1,5 +1,8 @@
 #include "sunlit/studio/world.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -12,16 +15,38 @@
 #include "sunlit/light/lamp_surroundings.h"
 #include "sunlit/light/lamps.h"
 #include "sunlit/quantity/memory.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::studio {
 namespace {
 
-void tellOf(const WorldOptions& options, const scene::Scene& scene, std::size_t triangles,
+void tellOf(const WorldOptions& options, const scene::Scene& scene, const std::string& size,
             const Reports& reports) {
   for (const std::string& warning : scene.warnings) tell(reports.warning, options.name + ": " + warning);
-  tell(reports.note, "World " + options.name + ": " + std::to_string(triangles) + " triangles, " +
-                         std::to_string(scene.textures.size()) + " textures, " +
-                         std::to_string(scene.lamps.size()) + " lamps");
+  const auto through = std::count_if(scene.lamps.begin(), scene.lamps.end(),
+                                     [](const scene::Lamp& lamp) { return !lamp.casts_shadows; });
+  tell(reports.note, "World " + options.name + ": " + size + ", " + std::to_string(scene.textures.size()) +
+                         " textures, " + std::to_string(scene.lamps.size()) + " lamps" +
+                         (through > 0 ? ", " + std::to_string(through) +
+                                            " of them without shadows, as it says: they shine through walls"
+                                      : ""));
+}
+
+std::string countOf(std::size_t triangles) {
+  return std::to_string(triangles) + " triangles";
+}
+
+/// With its extents: one in millimetres is seen to be.
+std::string sizeOf(const scene::Shape& shape) {
+  Eigen::AlignedBox3f box;
+  for (const scene::Chunk& chunk : shape.chunks) box.extend(chunk.box);
+  std::string extents;
+  for (const float extent : box.sizes()) {
+    const auto extent_m = static_cast<double>(extent);
+    extents += (extents.empty() ? " in " : " x ") +
+               (extent_m < 100.0 ? sunlit::textOf(extent_m, 3) : sunlit::textOf(std::round(extent_m)));
+  }
+  return countOf(shape.triangles.size()) + (box.isEmpty() ? "" : extents + " m");
 }
 
 void tellOfHousings(const WorldOptions& options, const std::vector<std::string>& lamps,
@@ -42,7 +67,7 @@ light::World flatWorld(const WorldOptions& options, const std::string& cache_fol
   scene::FlatScene flat = options.name == scene::kRaceTrack
                               ? keptRaceTrack(cache_folder, reports)
                               : scene::flattened(scene::load(options.name, options.searchPath()));
-  tellOf(options, flat.scene, flat.shape.triangles.size(), reports);
+  tellOf(options, flat.scene, sizeOf(flat.shape), reports);
   const auto scene = std::make_shared<scene::Scene>(std::move(flat.scene));
   std::vector<std::vector<scene::Mesh>> meshes_of_links;
   if (robot) meshes_of_links = scene::addLooks(*robot, scene.get());
@@ -71,7 +96,7 @@ std::string requireWorld(const WorldOptions& options) {
 scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
   scene::Scene scene =
       inMemory(loading(options), [&] { return scene::load(options.name, options.searchPath()); });
-  tellOf(options, scene, scene.triangleCount(), reports);
+  tellOf(options, scene, countOf(scene.triangleCount()), reports);
   return scene;
 }
 

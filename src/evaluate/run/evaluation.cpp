@@ -22,7 +22,7 @@ bool Outcome::isWhole() const {
   }
   const bool repeats = std::any_of(counts.streams.begin(), counts.streams.end(),
                                    [](const StreamCounts& stream) { return stream.isMostlyDuplicate(); });
-  return absent_poses == 0 && evaluated > 0 && !repeats;
+  return absent_poses == 0 && not_mended == 0 && evaluated > 0 && !repeats;
 }
 
 Evaluation::Evaluation(const EvaluationOptions& options, EvaluationCallbacks callbacks)

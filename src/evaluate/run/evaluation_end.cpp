@@ -32,6 +32,7 @@ Outcome Evaluation::State::finish(const StopToken& broken_off) {
   outcome.counts = counts();
   outcome.absent_poses = nameAbsentPoses();
   settleAndWrite(outcome);
+  forgetEarlierResults();
   if (outcome.isWhole()) forgetLostFeatures();
   finished_ = outcome;
   return outcome;
@@ -67,16 +68,41 @@ std::size_t Evaluation::State::nameAbsentPoses() {
   return absent;
 }
 
-// By an image that came after all, as an earlier run was taken up.
+std::optional<std::int64_t> Evaluation::State::poseOf(const Problem& problem) const {
+  if (problem.pose || !problem.stamp_ns) return problem.pose;
+  return poses_.known(*problem.stamp_ns);
+}
+
+// By an image that came after all, as an earlier run was taken up. One that came too late, or cut short,
+// beside one that an earlier run evaluated is none that was lacking.
 bool Evaluation::State::isMended(const Problem& problem, const StampsOfPairs& evaluated) const {
-  if (!problem.pose || problem.kind == "duplicate") return false;
+  const std::optional<std::int64_t> pose = poseOf(problem);
+  if (!pose || problem.kind == "duplicate") return false;
+  const bool is_left_out = problem.kind == kLeftOutBefore;
+  const bool is_of_image = problem.kind == "undecodable" || problem.kind == "late";
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    if (evaluated.count({*pose, p}) == 0) continue;
     const PairSpec& pair = options_.pairs[p];
-    const bool is_of_sun = problem.kind == kOtherSun && (problem.where == pair.a || problem.where == pair.b);
-    const bool is_meant = problem.kind == "absent" || problem.where == pair.name() || is_of_sun;
-    if (is_meant && evaluated.count({*problem.pose, p}) != 0) return true;
+    const bool is_in_pair = problem.where == pair.a || problem.where == pair.b;
+    const bool is_new = is_of_image && held_.count({*pose, p}) == 0;
+    if (problem.kind == "absent" || problem.where == pair.name() || (is_in_pair && (is_left_out || is_new)))
+      return true;
   }
   return false;
+}
+
+// How many pairs, or pictures, of expected poses earlier runs could not evaluate and this one was not asked
+// to.
+std::size_t Evaluation::State::countNotMended(const std::vector<Problem>& earlier) const {
+  static const std::set<std::string> of_pair = {"missing_partner", "undecodable", "size_mismatch", "dropped",
+                                                "failed",          "unplaced",    kLeftOutBefore};
+  const auto isMeant = [&](const Problem& problem) {
+    const std::optional<std::int64_t> pose = poseOf(problem);
+    const bool is_stream = std::count(options_.streams.begin(), options_.streams.end(), problem.where) > 0;
+    return of_pair.count(problem.kind) != 0 && (!is_stream || problem.kind == kLeftOutBefore) && pose &&
+           options_.poses.holds(*pose);
+  };
+  return static_cast<std::size_t>(std::count_if(earlier.begin(), earlier.end(), isMeant));
 }
 
 void Evaluation::State::settleAndWrite(Outcome& outcome) {
@@ -97,13 +123,17 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
   writeSummary(file("summary.csv"), outcome.summary);
   if (isVerifying()) outcome.verified = writeVerifiedSummaries();
   const auto is_of_two = [this](std::int64_t stamp) { return !places_.fault(stamp).empty(); };
-  const LeftOutPlaces left_out = record_files_->finish(options_.streams, is_of_two);
+  const auto is_left_out = [this](const std::string& stream, const CaptureRecord& capture) {
+    return isLeftOutCapture(stream, capture);
+  };
+  const LeftOutPlaces left_out = record_files_->finish(options_.streams, is_left_out, is_of_two);
   for (const auto& [count, what] : {std::pair{left_out.without_image, "stamps without an image"},
                                     {left_out.of_two, "stamps of two places"}}) {
     if (count > 0 && callbacks_.note)
       callbacks_.note(file("path.csv") + ": " + std::to_string(count) + " poses of " + what + " left out");
   }
-  problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
+  outcome.not_mended = countNotMended(
+      problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); }));
   writeRunFile(file("run.yaml"), options_, &outcome, nullptr);
 }
 
@@ -127,9 +157,16 @@ std::vector<VerifiedSummaryRow> Evaluation::State::writeVerifiedSummaries() cons
   }
 }
 
+// What is made of frames.csv after the end: of an earlier one, and of fewer poses, nobody should find it
+// where this run is stopped before it makes its own.
+void Evaluation::State::forgetEarlierResults() {
+  std::filesystem::remove(file("comparisons.csv"));
+  if (observer_ && localisedBefore().empty()) forgetLocalised();
+}
+
 void Evaluation::State::compareMethods(const StopToken& stop) {
   const std::string path = file("comparisons.csv");
-  std::filesystem::remove(path);  // of an earlier end, and of fewer poses
+  std::filesystem::remove(path);
   std::vector<Measured> measured;
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -1,5 +1,6 @@
 // What is not evaluated although all of it came: pictures of two places, or under another sun than that of
 // their condition.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -30,15 +31,47 @@ bool Evaluation::State::isLeftOut(std::int64_t stamp_ns, std::optional<std::int6
   return isOfTwoPlaces(stamp_ns, pose, pair) || isOfOtherSun(stamp_ns, pair);
 }
 
-// What was evaluated before that was known. What earlier runs evaluated is not of this run's images.
+// What was evaluated before that was known, with its pictures. What earlier runs evaluated is not of this
+// run's images.
 void Evaluation::State::separate(std::int64_t stamp_ns) {
   std::vector<PairRecord> evaluated;
   for (const PairRecord& record : records_) {
     if (record.stamp_ns == stamp_ns && held_.count({record.pose, record.pair}) == 0)
       evaluated.push_back(record);
   }
+  const bool is_of_two = !places_.fault(stamp_ns).empty();
+  std::set<std::pair<std::size_t, std::int64_t>> left_out, kept;  // streams and poses
   for (const PairRecord& record : evaluated) {
-    if (isLeftOut(stamp_ns, record.pose, record.pair)) withdraw(stamp_ns, record.pair);
+    const bool is_left_out = isLeftOut(stamp_ns, record.pose, record.pair);
+    if (is_left_out) withdraw(stamp_ns, record.pair);
+    for (const std::size_t stream : {pair_streams_[record.pair].first, pair_streams_[record.pair].second}) {
+      if (!is_left_out) kept.emplace(stream, record.pose);
+      if (is_of_two || suns_.isOther(options_.streams[stream], stamp_ns))
+        left_out.emplace(stream, record.pose);
+    }
+  }
+  for (const auto& picture : left_out) {
+    if (pictures_ && kept.count(picture) == 0)
+      pictures_->remove(options_.streams[picture.first], picture.second);
+  }
+}
+
+// Of a picture that is asked for: what earlier runs evaluated is not of this run's images.
+bool Evaluation::State::isLeftOutCapture(const std::string& stream, const CaptureRecord& capture) const {
+  const auto number = static_cast<std::size_t>(
+      std::find(options_.streams.begin(), options_.streams.end(), stream) - options_.streams.begin());
+  return suns_.isOther(stream, capture.stamp_ns) && isAskedFor(number, capture.stamp_ns, capture.pose);
+}
+
+// Streams and stamps that a run in `folder`, or one before it, left out.
+void Evaluation::State::noteLeftOutBefore(const std::string& folder) {
+  for (const char* kind : {kOtherSun, kTwoPlaces, kLeftOutBefore}) {
+    for (const auto& [stamp, where] : problemsOf(kind, folder)) {
+      left_out_before_.emplace(where, stamp);
+      for (const PairSpec& pair : options_.pairs) {
+        if (pair.name() == where) left_out_before_.insert({{pair.a, stamp}, {pair.b, stamp}});
+      }
+    }
   }
 }
 
@@ -46,6 +79,7 @@ void Evaluation::State::nameOtherSuns(std::size_t stream, const std::vector<Othe
   StreamCounts& counts = counts_.streams[stream];
   for (const OtherSun& other : others) {
     const std::optional<std::int64_t> pose = poses_.known(other.stamp_ns);
+    if (pose && !isAskedFor(stream, other.stamp_ns, *pose)) continue;
     report({kOtherSun, pose, other.stamp_ns, options_.streams[stream], other.fault});
     separate(other.stamp_ns);
     if (++counts.other_sun > 1) continue;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kObservations = "observations.bin";
 constexpr const char* kRows = "localisation.csv";
+constexpr const char* kPoses = "localisation_poses.csv";
 constexpr const char* kSummary = "localisation_summary.csv";
 
 LocalisationOptions optionsOf(const EvaluationOptions& options) {
@@ -149,8 +150,10 @@ void Evaluation::State::observeSet(const StampSet& set, Work& work) {
   if (!observer_) return;
   work.truth = observer_->truth().take(set.stamp_ns);
   work.observed.assign(set.streams.size(), 0);
+  const std::vector<char> needed = neededStreams(work.pose);
   for (std::size_t s = 0; s < set.streams.size(); ++s) {
-    if (set.streams[s].rgb.empty() || suns_.isOther(options_.streams[s], set.stamp_ns)) continue;
+    const bool is_needed = needed[s] != 0 && !suns_.isOther(options_.streams[s], set.stamp_ns);
+    if (set.streams[s].rgb.empty() || !is_needed) continue;
     const std::string fault = observer_->faultOf(s, work.truth, set.streams[s].rgb.size());
     work.observed[s] = fault.empty() ? 1 : 0;
     if (!fault.empty()) reportUnlocalised(work, s, fault);
@@ -177,14 +180,17 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
     if (isWholePath()) std::filesystem::remove(file(kObservations));  // the empty one of this run
     return outcome;
   }
+  forgetLocalised();
   const Pictures evaluated = evaluatedPictures(options_, records_);
-  const auto hasOtherSun = [&](const ObservationKey& key) {
-    return suns_.isOther(key.stream, key.stamp_ns) ||
-           (suns_.wasOther(key.stream, key.stamp_ns) && evaluated.count({key.stream, key.stamp_ns}) == 0);
+  // By this run, or by an earlier one, and not evaluated since, or before that.
+  const auto isLeftOutPicture = [&](const ObservationKey& key) {
+    const bool is_named =
+        suns_.isOther(key.stream, key.stamp_ns) || left_out_before_.count({key.stream, key.stamp_ns}) != 0;
+    return is_named && evaluated.count({key.stream, key.stamp_ns}) == 0;
   };
   std::vector<std::unique_ptr<ObservationFile>> merged;
   const auto counting = [&](const ObservationKey& key) -> std::optional<std::int64_t> {
-    if (!places_.fault(key.stamp_ns).empty() || hasOtherSun(key)) return std::nullopt;
+    if (!places_.fault(key.stamp_ns).empty() || isLeftOutPicture(key)) return std::nullopt;
     return poses_.settled(key.stamp_ns, key.pose);
   };
   ObservedDrives drives{{&observer_->observations()}, streamsOf(options_), counting};
@@ -209,7 +215,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   localised_ = measuredOf(result.rows);
   outcome.summary = summariesOf(result.rows);
   writeLocalisation(file(kRows), result.rows);
-  writeLocalisationPoses(file("localisation_poses.csv"), result.rows);
+  writeLocalisationPoses(file(kPoses), result.rows);
   writeLocalisationSummary(file(kSummary), outcome.summary);
   // Of a run that is not whole the same run again evaluates the rest.
   if (outcome.isWhole() && finished_.isWhole() && isWholePath()) std::filesystem::remove(file(kObservations));
@@ -227,6 +233,10 @@ std::vector<LocalisationRow> Evaluation::State::localisedBefore() const {
     if (!areOf(options_, records_, rows)) return {};
   }
   return unobserved(streamsOf(options_), rows) == 0 ? rows : std::vector<LocalisationRow>();
+}
+
+void Evaluation::State::forgetLocalised() const {
+  for (const char* name : {kRows, kPoses, kSummary}) std::filesystem::remove(file(name));
 }
 
 // It was localised, and what it observed is gone.

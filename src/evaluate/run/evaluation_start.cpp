@@ -127,7 +127,7 @@ void makeFolder(const std::string& path) {
 }
 
 /// Leaves out of `frames`, which `folder` holds, what problems.csv there names: a run that was killed had no
-/// time to take these rows out. They are asked for again. Returns how many lines they had.
+/// time to take these rows out. Returns how many lines they had.
 std::size_t leaveOutNamed(const std::string& folder, const std::vector<PairSpec>& pairs,
                           std::vector<PairRecord>& frames) {
   const auto of_two_places = problemsOf(kTwoPlaces, folder), of_other_suns = problemsOf(kOtherSun, folder);
@@ -171,18 +171,25 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
   claimFolder(options_.output_dir, settingsOf(options_));
   image::removeUnfinished(options_.output_dir);
   takeUpEarlierRuns();
-  problems_ = std::make_unique<ProblemFile>(options_.output_dir);
+  // Only now: what it names as left out is in no other file any more.
+  problems_ = std::make_unique<ProblemFile>(options_.output_dir, options_.merge);
   prepareLocalisation();
   if (options_.images == KeptImages::kNone) return;
   pictures_ = std::make_unique<PictureWriter>(file("images"));
   if (isVerifying()) drawn_ = std::make_unique<PictureWriter>(file("matches"));
 }
 
-// Reads what a run left in `folder`; the lines of a torn end that it had to leave out.
-std::size_t Evaluation::State::takeUp(const std::string& folder) {
+Evaluation::State::LeftLines& Evaluation::State::LeftLines::operator+=(const LeftLines& other) {
+  torn += other.torn;
+  asked_again += other.asked_again;
+  return *this;
+}
+
+// Reads what a run left in `folder`.
+Evaluation::State::LeftLines Evaluation::State::takeUp(const std::string& folder) {
   LoadedFrames loaded = loadFrames(folder + "/frames.csv", layout_);
-  loaded.dropped_lines += leaveOutNamed(folder, options_.pairs, loaded.records);
-  loaded.dropped_lines += takeUpVerified(folder, loaded.records);
+  LeftLines left{loaded.dropped_lines, leaveOutNamed(folder, options_.pairs, loaded.records)};
+  left.torn += takeUpVerified(folder, loaded.records);
   if (folder != options_.output_dir) record_files_->merge(folder, poses_);
   for (PairRecord& record : loaded.records) {
     poses_.remember(record.stamp_ns, record.pose);
@@ -190,8 +197,8 @@ std::size_t Evaluation::State::takeUp(const std::string& folder) {
   }
   // Images that were not evaluated have their place among the others, too.
   for (const auto& [stamp, pose] : posesOfProblems(folder)) poses_.remember(stamp, pose);
-  for (const auto& [stamp, stream] : problemsOf(kOtherSun, folder)) suns_.noteEarlier(stream, stamp);
-  return loaded.dropped_lines;
+  noteLeftOutBefore(folder);
+  return left;
 }
 
 // Once the stamps and captures of all folders are known.
@@ -241,12 +248,12 @@ void Evaluation::State::requireNothingForgotten() const {
 void Evaluation::State::takeUpEarlierRuns() {
   record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
   mendLostFile(file(kLostFile));
-  std::size_t dropped_lines = takeUp(options_.output_dir);
+  LeftLines left = takeUp(options_.output_dir);
   has_forgotten_ =
       hasForgottenFeatures() || (!records_.empty() && hasForgottenObservations(options_.output_dir));
   for (const std::string& folder : options_.merge) {
     requireMergeable(folder);
-    dropped_lines += takeUp(folder);
+    left += takeUp(folder);
   }
   settleTakenUp();
   rankAll();
@@ -259,17 +266,24 @@ void Evaluation::State::takeUpEarlierRuns() {
   }
   requireNothingForgotten();
   writeRunFile(file("run.yaml"), options_, nullptr, nullptr);  // not before: what is refused changes nothing
-  if (dropped_lines > 0 || !options_.merge.empty()) writeRecords();
+  if (left.torn + left.asked_again > 0 || !options_.merge.empty()) writeRecords();
   frames_file_.open(file("frames.csv"), framesHeader());
   if (isVerifying()) {
     verified_file_.open(file("verified.csv"), verifiedHeader());
     lost_file_.open(file(kLostFile), lostFileHeader());
   }
-  if (!callbacks_.note || (records_.empty() && dropped_lines == 0)) return;
+  tellTakenUp(left);
+}
+
+void Evaluation::State::tellTakenUp(const LeftLines& left) const {
+  if (!callbacks_.note || (records_.empty() && left.torn + left.asked_again == 0)) return;
   std::string line = options_.output_dir + " holds " + std::to_string(records_.size()) +
                      " evaluated pairs of " + std::to_string(completed_.size()) +
                      " whole poses: not evaluated again";
-  if (dropped_lines > 0) line += "; " + std::to_string(dropped_lines) + " lines of a torn end were left out";
+  if (left.torn > 0) line += "; " + std::to_string(left.torn) + " lines of a torn end were left out";
+  if (left.asked_again > 0)
+    line += "; " + std::to_string(left.asked_again) +
+            " lines of pictures that problems.csv leaves out, which are asked for again";
   callbacks_.note(line);
 }
 

@@ -26,6 +26,15 @@ bool Evaluation::State::isHeld(std::int64_t stamp_ns, std::int64_t pose, std::si
   return held != held_.end() && (!poses_.hasRate() || held->second <= stamp_ns);
 }
 
+// Whether a picture is of any pair that earlier runs did not evaluate.
+bool Evaluation::State::isAskedFor(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose) const {
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    const bool has = pair_streams_[p].first == stream || pair_streams_[p].second == stream;
+    if (has && isWanted(p, pose) && !isHeld(stamp_ns, pose, p)) return true;
+  }
+  return false;
+}
+
 std::vector<char> Evaluation::State::neededStreams(std::int64_t pose) const {
   std::vector<char> is_needed(options_.streams.size(), 0);
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
@@ -153,11 +162,13 @@ void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_) return;
   poses_.learn(capture.stamp_ns, capture.pose);
-  record_files_->add(options_.streams.at(stream), capture);
+  const std::int64_t pose = poses_.settled(capture.stamp_ns, capture.pose);
+  record_files_->add(options_.streams.at(stream), capture, !isAskedFor(stream, capture.stamp_ns, pose));
   if (!capture.utc && !capture.utc_text.empty())
     report(
         {"unusable", capture.pose, capture.stamp_ns, options_.streams[stream],
          "utc is \"" + capture.utc_text + "\", so that nobody can tell whether its sun was set meanwhile"});
+  if (places_.isBroken(options_.streams[stream], capture)) separate(capture.stamp_ns);
   nameOtherSuns(stream, suns_.add(options_.streams[stream], capture));
   closeIfWhole(capture.stamp_ns);
 }
@@ -320,8 +331,10 @@ std::vector<std::size_t> Evaluation::State::keptPictures(const StampSet& set, st
                                                          bool is_evaluated) {
   std::vector<std::size_t> kept;
   if (!pictures_ || (options_.images == KeptImages::kSamples && !isSample(pose))) return kept;
+  const bool is_of_two = !places_.fault(set.stamp_ns).empty();
   for (std::size_t s = 0; s < set.streams.size(); ++s) {
-    if (set.streams[s].rgb.empty()) continue;
+    const bool is_left_out = suns_.isOther(options_.streams[s], set.stamp_ns) || (is_of_two && !is_evaluated);
+    if (set.streams[s].rgb.empty() || is_left_out) continue;
     if (pictures_->claim(options_.streams[s], pose, set.stamp_ns, is_evaluated)) kept.push_back(s);
   }
   return kept;

@@ -65,11 +65,19 @@ class Evaluation::State {
   void takeUpEarlierRuns();
   void requireMergeable(const std::string& folder) const;
   void requireNothingForgotten() const;
-  std::size_t takeUp(const std::string& folder);
+  /// Lines that are not taken up.
+  struct LeftLines {
+    std::size_t torn = 0, asked_again = 0;
+    LeftLines& operator+=(const LeftLines& other);
+  };
+  LeftLines takeUp(const std::string& folder);
+  void tellTakenUp(const LeftLines& left) const;
+  void noteLeftOutBefore(const std::string& folder);
   void settleTakenUp();
   std::size_t nameAbsentPoses();
   bool isWanted(std::size_t pair, std::int64_t pose) const;
   bool isHeld(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) const;
+  bool isAskedFor(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose) const;
   std::vector<char> neededStreams(std::int64_t pose) const;
   bool hasAllImages(const StampSet& set, std::int64_t pose) const;
   bool isWhole(const StampSet& set, std::int64_t pose) const;
@@ -86,6 +94,7 @@ class Evaluation::State {
   bool isLeftOut(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
   void nameOtherSuns(std::size_t stream, const std::vector<OtherSun>& others);
   void separate(std::int64_t stamp_ns);
+  bool isLeftOutCapture(const std::string& stream, const CaptureRecord& capture) const;
   bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
   bool isSample(std::int64_t pose) const;
   std::vector<std::size_t> keptPictures(const StampSet& set, std::int64_t pose, bool is_evaluated);
@@ -106,6 +115,7 @@ class Evaluation::State {
   void observeSet(const StampSet& set, Work& work);
   std::size_t truthBytes() const { return observer_ ? observer_->truth().bytes() : 0; }
   std::vector<LocalisationRow> localisedBefore() const;
+  void forgetLocalised() const;
   bool hasForgottenObservations(const std::string& folder) const;
   bool isWholePath() const;
   std::size_t unobserved(const ObservedStreams& streams, const std::vector<LocalisationRow>& rows) const;
@@ -134,7 +144,10 @@ class Evaluation::State {
   void markCompleted(std::int64_t pose);
   void complete(std::int64_t pose);
   void report(const Problem& problem) { problems_->add(problem); }
+  std::optional<std::int64_t> poseOf(const Problem& problem) const;
   bool isMended(const Problem& problem, const StampsOfPairs& evaluated) const;
+  std::size_t countNotMended(const std::vector<Problem>& earlier) const;
+  void forgetEarlierResults();
   void settleAndWrite(Outcome& outcome);
   std::vector<VerifiedSummaryRow> writeVerifiedSummaries() const;
 
@@ -150,6 +163,7 @@ class Evaluation::State {
   StampSets sets_;
   OnePlace places_;
   Suns suns_;
+  std::set<std::pair<std::string, std::int64_t>> left_out_before_;  // streams and stamps
   Counts counts_;
   std::vector<PairRecord> records_;
   std::vector<VerifiedRecord> verified_;  // of the same stamps and pairs, where matches are verified

@@ -1,6 +1,9 @@
 #include "evaluate/run/one_place.h"
 
+#include <cmath>
+
 #include "sunlit/evaluate/same_place.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::evaluate {
 
@@ -18,6 +21,23 @@ bool OnePlace::isBroken(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from
   const std::string apart = twoPlaces(*first, map_from_optical);
   if (!apart.empty()) faults_.emplace(stamp_ns, apart);
   return !apart.empty();
+}
+
+bool OnePlace::isBroken(const std::string& stream, const CaptureRecord& capture) {
+  constexpr double kSame = 1e-3;  // more than rounding, and less than a minute or a cloud changes
+  const Sky sky{capture.utc_text, capture.scene_illuminance_lx};
+  const auto [first, is_first] = skies_.emplace(std::make_pair(stream, capture.stamp_ns), sky);
+  if (is_first || faults_.count(capture.stamp_ns) != 0) return false;
+  const auto [utc, lx] = first->second;
+  const bool is_of_other_time = utc != sky.utc;
+  const bool is_of_other_light = std::abs(lx - sky.illuminance_lx) > kSame * std::abs(lx);  // not by NaN
+  if (!is_of_other_time && !is_of_other_light) return false;
+  const std::string apart = is_of_other_time
+                                ? "skies of " + utc + " and " + sky.utc
+                                : textOf(lx, 6) + " and " + textOf(sky.illuminance_lx, 6) + " lx";
+  faults_.emplace(capture.stamp_ns, "two captures of " + stream + " at this stamp tell of " + apart +
+                                        ": are these two recordings?");
+  return true;
 }
 
 void OnePlace::noteImage(std::int64_t stamp_ns) {

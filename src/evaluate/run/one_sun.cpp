@@ -1,8 +1,10 @@
 #include "evaluate/run/one_sun.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <tuple>
 
+#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::evaluate {
@@ -13,6 +15,20 @@ constexpr double kSame_s = 1.0;
 constexpr double kRounding_s = 2e-3;  // of two times: civil time is sent in ms
 /// s of ROS time: under a clock that waits for its first subscriber the sun stands for so long at most.
 constexpr double kLateStart_s = 1.0;
+
+/// deg: what rounding makes of a sun that stands still, 1 km on the ground; and of one that moves, what its
+/// refraction may change besides.
+constexpr double kSameDirection_deg = 0.02, kRefracts_deg = 0.7;
+/// Of the sky's turn: while refraction changes, the sun moves by a fifth more or less.
+constexpr double kFastest = 1.25;
+constexpr double kTurn_deg_s = 360.0 / 86164.0;
+
+Eigen::Vector3d sunOf(const CaptureRecord& capture) {
+  const double azimuth = capture.sun_azimuth_deg * kRadPerDeg,
+               elevation = capture.sun_elevation_deg * kRadPerDeg;
+  return {std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
+          std::sin(elevation)};
+}
 
 double secondsFrom(std::int64_t a_ns, std::int64_t b_ns) {
   return 1e-9 * static_cast<double>(b_ns - a_ns);
@@ -115,8 +131,38 @@ std::string OneSun::faultOf(const Seen& seen) const {
          "with the sun let alone, evaluates it";
 }
 
+bool OneSite::jumps(const Seen& a, const Seen& b) {
+  const double passed_s = std::abs(b.utc.secondsSince(a.utc));
+  const double may_deg = passed_s <= kSame_s ? kSameDirection_deg + kTurn_deg_s * passed_s
+                                             : kRefracts_deg + kFastest * kTurn_deg_s * passed_s;
+  return apart_deg(a, b) > may_deg;
+}
+
+double OneSite::apart_deg(const Seen& a, const Seen& b) {
+  return std::atan2(a.towards.cross(b.towards).norm(), a.towards.dot(b.towards)) / kRadPerDeg;
+}
+
+std::string OneSite::faultOf(const CaptureRecord& capture) {
+  const Seen seen{*capture.utc, sunOf(capture)};
+  if (!seen.towards.allFinite()) return "";
+  if (!latest_) latest_ = before_ = seen;
+  // And back, where it is back indeed.
+  if (jumps(*before_, seen)) is_elsewhere_ = !is_elsewhere_ || jumps(*latest_, seen);
+  before_ = seen;
+  if (!is_elsewhere_) {
+    latest_ = seen;
+    return "";
+  }
+  return "its sun stands " + textOf(apart_deg(*latest_, seen), 3) +
+         " deg from that of the captures before, farther than it turns meanwhile: was the site set "
+         "(set_site)? "
+         "Left out; the same run again, with the site let alone, evaluates it";
+}
+
 std::vector<OtherSun> Suns::add(const std::string& stream, const CaptureRecord& capture) {
   if (!capture.utc || !come_.emplace(stream, capture.stamp_ns).second) return {};
+  const std::string fault = sites_[stream].faultOf(capture);
+  if (!fault.empty()) return kept(stream, {{capture.stamp_ns, fault}});
   return kept(stream, suns_[stream].add(capture));
 }
 

@@ -1,6 +1,7 @@
 /// Whether the captures of a condition were taken under one sun.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -55,6 +56,27 @@ class OneSun {
   bool is_settled_ = false;             // whatever is doubtful from now on is of another sun
 };
 
+/// Where the captures of one condition see the sun from. As civil time goes on it turns no faster than the
+/// sky; it jumps where its site is set meanwhile.
+class OneSite {
+ public:
+  /// Of a capture whose `utc` is known: in words, where its sun is of another site than the first's; else
+  /// empty.
+  std::string faultOf(const CaptureRecord& capture);
+
+ private:
+  struct Seen {
+    Instant utc;
+    Eigen::Vector3d towards;  // unit
+  };
+  static bool jumps(const Seen& a, const Seen& b);
+  static double apart_deg(const Seen& a, const Seen& b);
+
+  std::optional<Seen> latest_;  // of the first's site
+  std::optional<Seen> before_;  // of any
+  bool is_elsewhere_ = false;
+};
+
 /// Those of all conditions, by their names.
 class Suns {
  public:
@@ -65,17 +87,12 @@ class Suns {
   bool isOther(const std::string& stream, std::int64_t stamp_ns) const {
     return others_.count({stream, stamp_ns}) > 0;
   }
-  /// An earlier run found so. That is of its own pictures, not of those that come now.
-  void noteEarlier(const std::string& stream, std::int64_t stamp_ns) { earlier_.emplace(stream, stamp_ns); }
-  bool wasOther(const std::string& stream, std::int64_t stamp_ns) const {
-    return earlier_.count({stream, stamp_ns}) > 0;
-  }
 
  private:
-  using Captures = std::set<std::pair<std::string, std::int64_t>>;  // by stream and stamp
   std::vector<OtherSun> kept(const std::string& stream, std::vector<OtherSun> found);
   std::map<std::string, OneSun> suns_;
-  Captures come_, others_, earlier_;
+  std::map<std::string, OneSite> sites_;
+  std::set<std::pair<std::string, std::int64_t>> come_, others_;  // by stream and stamp
 };
 
 }  // namespace sunlit::evaluate

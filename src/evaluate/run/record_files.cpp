@@ -1,8 +1,11 @@
 #include "evaluate/run/record_files.h"
 
 #include <algorithm>
+#include <iterator>
 
+#include "evaluate/run/one_sun.h"
 #include "sunlit/evaluate/files/stream_name.h"
+#include "sunlit/evaluate/same_place.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -40,18 +43,23 @@ void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) {
 }
 
 void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
+  const auto other_suns = problemsOf(kOtherSun, folder);  // which it had no time to leave out, if killed
+  bool has_any = false;
   forEachCsvRow(folder + "/captures.csv", kCapturesHeader, [&](const std::vector<std::string>& f) {
     requireStreamName(f[0], "stream");
     const CaptureRecord capture{parsePose(f[1]),   parseStamp(f[2]),  parseNumber(f[3]), f[4],
                                 parseNumber(f[5]), parseNumber(f[6]), parseNumber(f[7]), parseNumber(f[8]),
                                 parseNumber(f[9]), parseNumber(f[10])};
-    keep(f[0], capture);
+    has_any = true;
+    if (other_suns.count({capture.stamp_ns, f[0]}) == 0) keep(f[0], capture);
     poses.learn(capture.stamp_ns, capture.pose);
   });
-  if (!captures_.empty()) writeCaptures({});  // without torn ends, before going on
+  if (has_any) writeCaptures({});  // without torn ends, before going on
 }
 
-void RecordFiles::add(const std::string& stream, const CaptureRecord& capture) {
+void RecordFiles::add(const std::string& stream, const CaptureRecord& capture, bool is_held) {
+  if (!come_.emplace(stream, capture.stamp_ns).second) return;
+  if (is_held && captures_.count({stream, capture.pose}) != 0) return;
   if (captures_.empty()) captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
   keep(stream, capture);
   captures_file_.append(lineOf(stream, capture));
@@ -79,9 +87,12 @@ void RecordFiles::writeCaptures(const std::vector<std::string>& streams) {
   captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
 }
 
-LeftOutPlaces RecordFiles::finish(const std::vector<std::string>& streams,
+LeftOutPlaces RecordFiles::finish(const std::vector<std::string>& streams, const IsLeftOut& is_left_out,
                                   const std::function<bool(std::int64_t)>& is_of_two_places) {
-  if (!captures_.empty()) writeCaptures(streams);
+  const bool has_any = !captures_.empty();
+  for (auto item = captures_.begin(); item != captures_.end();)
+    item = is_left_out(item->first.first, item->second) ? captures_.erase(item) : std::next(item);
+  if (has_any) writeCaptures(streams);
   return path_.finish(is_of_two_places);
 }
 
@@ -103,15 +114,25 @@ std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder) 
   return poses;
 }
 
-ProblemFile::ProblemFile(const std::string& folder) : path_(folder + "/problems.csv") {
-  forEachCsvRow(path_, kProblemsHeader, [&](const std::vector<std::string>& f) {
+ProblemFile::ProblemFile(const std::string& folder, const std::vector<std::string>& merged)
+    : path_(folder + "/problems.csv") {
+  read(path_);
+  for (const std::string& other : merged) read(other + "/problems.csv");
+  image::writeFileAtomically(path_, text());  // without a torn end, before going on
+  file_.open(path_, kProblemsHeader);
+}
+
+void ProblemFile::read(const std::string& path) {
+  forEachCsvRow(path, kProblemsHeader, [&](const std::vector<std::string>& f) {
     Problem problem{f[0], std::nullopt, std::nullopt, f[3], f[4]};
     if (!f[1].empty()) problem.pose = parsePose(f[1]);
     if (!f[2].empty()) problem.stamp_ns = parseStamp(f[2]);
+    if (problem.kind == kOtherSun || problem.kind == kTwoPlaces) {
+      problem.reason = problem.kind + ": " + problem.reason;
+      problem.kind = kLeftOutBefore;
+    }
     if (known_.insert(keyOf(problem)).second) problems_.push_back(problem);
   });
-  image::writeFileAtomically(path_, text());  // without a torn end, before going on
-  file_.open(path_, kProblemsHeader);
 }
 
 // Where there is a stamp, it tells problems apart: the pose may have become known, or settled, meanwhile.
@@ -135,17 +156,29 @@ std::string ProblemFile::text() const {
   return text;
 }
 
-void ProblemFile::finish(const PoseIndex& poses, const std::function<bool(const Problem&)>& is_mended) {
+std::vector<Problem> ProblemFile::finish(const PoseIndex& poses,
+                                         const std::function<bool(const Problem&)>& is_mended) {
   file_.close();
   for (Problem& problem : problems_) {
     if (problem.pose && problem.stamp_ns) problem.pose = poses.settled(*problem.stamp_ns, *problem.pose);
   }
-  const auto is_over = [&](const Problem& p) { return met_now_.count(keyOf(p)) == 0 && is_mended(p); };
-  problems_.erase(std::remove_if(problems_.begin(), problems_.end(), is_over), problems_.end());
+  const auto isMet = [&](const Problem& p) { return met_now_.count(keyOf(p)) != 0; };
+  const auto placeOf = [](const Problem& p) { return std::make_pair(p.stamp_ns, p.where); };
+  std::set<std::pair<std::optional<std::int64_t>, std::string>> met_places;
+  for (const Problem& problem : problems_)
+    if (isMet(problem)) met_places.insert(placeOf(problem));
+  const auto isOver = [&](const Problem& p) {
+    const bool is_named_anew = p.kind == kLeftOutBefore && met_places.count(placeOf(p)) != 0;
+    return !isMet(p) && (is_named_anew || is_mended(p));
+  };
+  problems_.erase(std::remove_if(problems_.begin(), problems_.end(), isOver), problems_.end());
+  std::vector<Problem> old;
+  std::remove_copy_if(problems_.begin(), problems_.end(), std::back_inserter(old), isMet);
   const auto key = [](const Problem& p) { return std::tie(p.stamp_ns, p.kind, p.where, p.reason, p.pose); };
   std::stable_sort(problems_.begin(), problems_.end(),
                    [&](const Problem& l, const Problem& r) { return key(l) < key(r); });
   image::writeFileAtomically(path_, text());
+  return old;
 }
 
 }  // namespace sunlit::evaluate

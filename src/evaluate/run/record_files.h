@@ -26,12 +26,15 @@ class RecordFiles {
   RecordFiles(const std::string& folder, PoseIndex& poses);
   /// Adds what a run in another folder left.
   void merge(const std::string& other_folder, PoseIndex& poses);
-  void add(const std::string& stream, const CaptureRecord& capture);
+  /// Of those of one stream and stamp the first counts that comes, as of images; an earlier run's only where
+  /// that `is_held`: its picture is not evaluated again.
+  void add(const std::string& stream, const CaptureRecord& capture, bool is_held);
   void add(const PlaceRecord& place) { path_.add(place); }
   /// An image of this stamp came.
   void noteImage(std::int64_t stamp_ns) { path_.noteImage(stamp_ns); }
-  /// As PathFile::finish().
-  LeftOutPlaces finish(const std::vector<std::string>& streams,
+  using IsLeftOut = std::function<bool(const std::string& stream, const CaptureRecord& capture)>;
+  /// As PathFile::finish(), and without captures that are left out.
+  LeftOutPlaces finish(const std::vector<std::string>& streams, const IsLeftOut& is_left_out,
                        const std::function<bool(std::int64_t)>& is_of_two_places);
 
  private:
@@ -42,6 +45,7 @@ class RecordFiles {
   AppendFile captures_file_;
   std::map<std::pair<std::string, std::int64_t>, CaptureRecord>
       captures_;  // by stream and pose: of the earliest stamp, as frames.csv
+  std::set<std::pair<std::string, std::int64_t>> come_;  // streams and stamps, in this run
   PathFile path_;
 };
 
@@ -56,6 +60,8 @@ struct Problem {
 
 /// Problem::kind of an image of a pose that is none of those expected.
 inline constexpr const char* kUnexpected = "unexpected";
+/// Of what an earlier run left out, as of other suns or two places, or had no time to: it is asked for again.
+inline constexpr const char* kLeftOutBefore = "left_out_before";
 
 /// Poses by the stamps of images that problems.csv of `folder` names, but of unexpected ones.
 std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder);
@@ -67,14 +73,16 @@ std::set<std::pair<std::int64_t, std::string>> problemsOf(const std::string& kin
 /// was met.
 class ProblemFile {
  public:
-  explicit ProblemFile(const std::string& folder);
+  /// Begins with what `folder` and those that are merged have; what they left out becomes kLeftOutBefore.
+  ProblemFile(const std::string& folder, const std::vector<std::string>& merged);
   void add(const Problem& problem);
   /// Sorted by stamp, kind and place; each pose as `poses` has settled it; without those of earlier runs that
-  /// this one did not meet and of which `is_mended` says that it mended them.
-  void finish(const PoseIndex& poses, const std::function<bool(const Problem&)>& is_mended);
+  /// this one did not meet and of which `is_mended` says that it mended them. Returns those that stay.
+  std::vector<Problem> finish(const PoseIndex& poses, const std::function<bool(const Problem&)>& is_mended);
 
  private:
   static std::string keyOf(const Problem& problem);
+  void read(const std::string& path);
   std::string text() const;
   std::string path_;
   AppendFile file_;

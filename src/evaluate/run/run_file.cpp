@@ -99,7 +99,7 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
   std::ostringstream text;
   text << "outcome:\n  whole: " << (outcome.isWhole() ? "true" : "false")
        << "\n  completed_poses: " << outcome.counts.completed_poses
-       << "\n  absent_poses: " << outcome.absent_poses
+       << "\n  absent_poses: " << outcome.absent_poses << "\n  not_mended: " << outcome.not_mended
        << "\n  unexpected_poses: " << outcome.counts.unexpected_poses;
   if (localised != nullptr)
     text << "\n  key_frames: " << localised->key_frames << "\n  not_localised: " << localised->unobserved;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/vector_clones.h"
@@ -13,6 +14,9 @@ namespace {
 constexpr float kSharpest = 1e-6f;
 /// Of cosines, by which a box must lie outside a cone to be known to without a look at the angles.
 constexpr float kClearlyOutside = 1e-4f;
+
+/// Of the difference of two squares of cosines: a way along the cone's flank meets it far off or nowhere.
+constexpr double kAlongCone = 1e-9;
 
 /// Of a disc that passes light on: near it, light grows as towards a smaller one (the disc's own radius is
 /// right on its axis, too large beside it), and its ball stands for what of it shows past things before it.
@@ -105,6 +109,27 @@ LampBeam::Bounds LampBeam::within(const Eigen::AlignedBox3f& box) const {
   }
   const float low = farthest > lamp_.range_m ? 0.0f : attenuation(farthest) * cone(std::cos(most));
   return {brightest_ * low, brightest_ * attenuation(nearest) * cone(std::cos(least))};
+}
+
+LampBeam::Stretch LampBeam::withinCone(const Eigen::Vector3f& start, const Eigen::Vector3f& towards) const {
+  constexpr float kFar_m = std::numeric_limits<float>::infinity();
+  const Stretch all{-kFar_m, kFar_m}, nothing{0.0f, 0.0f};
+  if (!isSpot() || cos_outer_ <= 0.0f) return all;
+  // (axis · p)² − cos² |p|² = a s² + 2 b s + c, p from the lamp: not below 0 in the cone and its mirror
+  // image.
+  const Eigen::Vector3d axis = lamp_.direction.cast<double>(), way = towards.cast<double>();
+  const Eigen::Vector3d from = start.cast<double>() - lamp_.position.cast<double>();
+  const double square = static_cast<double>(cos_outer_) * static_cast<double>(cos_outer_);
+  const double along = axis.dot(way), before = axis.dot(from);
+  const double a = along * along - square, b = before * along - square * from.dot(way),
+               c = before * before - square * from.squaredNorm();
+  const double root = std::sqrt(std::max(b * b - a * c, 0.0));
+  if (std::abs(a) < kAlongCone) return all;
+  const auto near_m = static_cast<float>(std::min((-b - root) / a, (-b + root) / a)),
+             far_m = static_cast<float>(std::max((-b - root) / a, (-b + root) / a));
+  if (a > 0.0) return along > 0.0 ? Stretch{far_m, kFar_m} : Stretch{-kFar_m, near_m};
+  const bool mirrored = before - b / a * along < 0.0;
+  return root > 0.0 && !mirrored ? Stretch{near_m, far_m} : nothing;
 }
 
 void LampBeam::shares(const Points& points, float* shares) const {

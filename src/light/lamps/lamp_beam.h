@@ -28,6 +28,7 @@ class LampBeam {
   /// How large it shows in surfaces that mirror it.
   float shownRadius_m() const { return shown_radius_m_; }
   bool isBounced() const { return bounced_; }
+  bool isSpot() const { return lamp_.isSpot(); }
   bool castsShadows() const { return lamp_.casts_shadows; }
 
   /// Illuminance of a plane at `point` that faces the lamp, lx. Within the lamp's ball: as on its surface.
@@ -38,6 +39,14 @@ class LampBeam {
     float low, high;
   };
   Bounds within(const Eigen::AlignedBox3f& box) const;
+
+  /// Distances along a way from `start`, m, between which it runs within the lamp's cone: beyond them the
+  /// lamp gives nothing. `towards` is a unit vector. Of a cone wider than a right angle, whose outside they
+  /// could not tell: all.
+  struct Stretch {
+    float from, to;
+  };
+  Stretch withinCone(const Eigen::Vector3f& start, const Eigen::Vector3f& towards) const;
 
   /// Two unit vectors at right angles to the unit vector `towards` and to each other, the same for equal
   /// `towards`: the disc that the lamp's ball shows lies across them.

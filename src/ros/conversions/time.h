@@ -3,6 +3,7 @@
 
 #include <ros/time.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -20,6 +21,12 @@ std::optional<Instant> fromUtc(const std::string& utc);
 
 /// "2024-07-01 04:00:00.000 UTC+03:00", rounded to 1 ms; `timezone` in h east of UTC.
 std::string textOfDate(const Instant& instant, double timezone);
+
+/// From `a` to `b`, s, whatever lies between: their difference as ros::Duration throws beyond 68 years.
+inline double secondsFrom(const ros::Time& a, const ros::Time& b) {
+  return 1e-9 *
+         static_cast<double>(static_cast<std::int64_t>(b.toNSec()) - static_cast<std::int64_t>(a.toNSec()));
+}
 
 /// "1719792000.000000000", s.
 std::string textOfStamp(const ros::Time& stamp);

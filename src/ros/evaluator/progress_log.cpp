@@ -198,6 +198,7 @@ std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate:
     if (count > 0) line += (line.empty() ? "" : ", ") + std::to_string(count) + " " + name;
   };
   add("expected poses never came", outcome.absent_poses);
+  add("left out by earlier or merged runs, and not asked for now", outcome.not_mended);
   for (std::size_t p = 0; p < options.pairs.size(); ++p) {
     const evaluate::PairCounts& c = outcome.counts.pairs[p];
     const std::string pair = " (" + options.pairs[p].a + "-" + options.pairs[p].b + ")";

@@ -208,14 +208,29 @@ void requireWeather(const sky::Weather& weather, const studio::SkyOptions& sky) 
   }
 }
 
+/// Throws where `name`, a value of the parameter, cannot be that of a node, topic or namespace, `what`.
+void requireName(const std::string& parameter, const std::string& name, const std::string& what) {
+  std::string reason = name.empty() ? "it is empty" : "~ stands for this node";
+  const bool is_one = !name.empty() && name[0] != '~' && ros::names::validate(name, reason);
+  if (!is_one)
+    throw std::invalid_argument("parameter " + parameter + " has '" + name + "', which is no " + what +
+                                "'s name: " + reason);
+}
+
+void requireNames(const ParameterReader& parameters, const RenderNodeOptions& options) {
+  for (const std::string& topic : options.pacing.wait_for)
+    requireName(parameters.fullName("wait_for"), topic, "topic");
+  if (!options.path.topic.empty())
+    requireName(parameters.fullName("path/topic"), options.path.topic, "topic");
+  if (!options.sun_namespace.empty())
+    requireName(parameters.fullName("sun_namespace"), options.sun_namespace, "namespace");
+}
+
 /// Makes whole names of the nodes that are counted, of which there must be enough.
 void nameSubscribers(const ParameterReader& parameters, WantedSubscribers* wanted) {
   const std::string of = parameters.fullName("subscribers/of");
   for (std::string& node : wanted->of) {
-    std::string reason = "it is empty";
-    if (node.empty() || !ros::names::validate(node, reason))
-      throw std::invalid_argument("parameter " + of + " has '" + node +
-                                  "', which is no node's name: " + reason);
+    requireName(of, node, "node");
     node = ros::names::resolve(node, false);
   }
   if (wanted->of.empty()) return;
@@ -376,6 +391,7 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   checkChain(parameters, options.chain);
   requireFrames(parameters, options);
   requireOnePath(parameters, options.path);
+  requireNames(parameters, options);
   requireBakeForGather(parameters, options);
   if (options.camera.follow_tf) refuseWithoutPath(parameters, options);
   if (!options.camera.right) refuseWithoutRight(parameters, options.pacing.subscribers);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "ros/conversions/time.h"
 #include "ros/render/run.h"
 
 namespace sunlit::ros_interface {
@@ -62,12 +63,17 @@ ros::Time PathRun::startOfNow() const {
   return start;
 }
 
-// Of a simulation that is reset, or a bag that is played again. Less than a pose is no more than a wait.
+// Of a simulation that is reset, or a bag that is played again. Less than a pose is no more than a wait. The
+// wall's clock is set right by seconds: a wait, too, and where readers set the pace not even that.
 void PathRun::heedClock() {
+  constexpr double kSetRight_s = 10.0;
   const ros::Time now = ros::Time::now();
   const ros::Time before = seen_;
   seen_ = now;
-  if (clock_ != nullptr || now + ros::Duration(1.0 / options_.frame_rate) >= before) return;
+  const bool is_wall = !ros::Time::isSimTime();
+  if (clock_ != nullptr || (is_wall && !options_.wait_for.empty())) return;
+  const double pose_s = 1.0 / options_.frame_rate;
+  if (secondsFrom(now, before) <= (is_wall ? std::max(pose_s, kSetRight_s) : pose_s)) return;
   const bool is_told = !set_back_from_.isZero();
   set_back_from_ = before;
   if (is_told) return;
@@ -83,7 +89,7 @@ Step PathRun::beginAnew() {
   if (!waits_for_.empty()) return Step::kWaits;
   const ros::Time now = ros::Time::now();
   const ros::Time sky = streams_.newestSky();
-  if (streams_.missedSky(now) && (sky - now).toSec() > (set_back_from_ - sky).toSec()) {
+  if (streams_.missedSky(now) && secondsFrom(now, sky) > secondsFrom(sky, set_back_from_)) {
     waits_for_ = std::string("a sky of the time to which the clock was set back");
     return Step::kWaits;
   }

@@ -258,7 +258,16 @@ void RenderNode::finish() {
   ROS_INFO("All poses are rendered; at its peak this process held %ld MiB", usage.ru_maxrss / 1024);
 }
 
+/// Nothing can be started or paused any more.
+bool RenderNode::isOver(std_srvs::Trigger::Response* response) const {
+  if (!finished_) return false;
+  response->success = false;
+  response->message = "all poses are rendered: a node that is started anew renders them again";
+  return true;
+}
+
 bool RenderNode::onStart(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  if (isOver(&response)) return true;
   response.success = true;
   response.message = paused_ ? "started" : "was running already";
   if (paused_) {
@@ -270,6 +279,7 @@ bool RenderNode::onStart(std_srvs::Trigger::Request& /*request*/, std_srvs::Trig
 }
 
 bool RenderNode::onPause(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  if (isOver(&response)) return true;
   response.success = true;
   response.message = paused_ ? "was paused already" : "paused";
   paused_ = true;

@@ -52,6 +52,7 @@ class RenderNode {
 
  private:
   bool onStart(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool isOver(std_srvs::Trigger::Response* response) const;
   bool onPause(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onView(RenderView::Request& request, RenderView::Response& response);
   /// Of work that takes its time: to the log, and as activity. Throws Interrupted from there.

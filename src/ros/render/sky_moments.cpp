@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "ros/conversions/time.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/turn.h"
 
@@ -157,9 +158,9 @@ std::optional<SkyBodies> SkyMoments::at(const ros::Time& stamp) const {
   const auto before = std::prev(after);
   if (before->second.time.rate == 0.0) return before->second;
   if (after == whole_.end()) return std::nullopt;
-  const double seconds = (after->first - before->first).toSec();
+  const double seconds = secondsFrom(before->first, after->first);
   if (!runsOn(before->second, after->second, seconds)) return before->second;
-  const double share = (stamp - before->first).toSec() / seconds;
+  const double share = secondsFrom(before->first, stamp) / seconds;
   return interpolated(before->second, after->second, share);
 }
 
@@ -171,7 +172,7 @@ double SkyMoments::spacing(const ros::Time& stamp) const {
   const auto after = whole_.lower_bound(stamp);
   if (after == whole_.begin() || after == whole_.end() || after->first == stamp) return 0.0;
   const auto before = std::prev(after);
-  return before->second.time.rate == 0.0 ? 0.0 : (after->first - before->first).toSec();
+  return before->second.time.rate == 0.0 ? 0.0 : secondsFrom(before->first, after->first);
 }
 
 void SkyMoments::forgetBefore(const ros::Time& stamp) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ros/conversions/time.h"
 #include "sunlit/astronomy/civil_time.h"
 
 namespace sunlit::ros_interface {
@@ -16,7 +17,7 @@ Instant SunClock::at(const ros::Time& now) {
   const Instant last_day = astronomy::midnightOf({static_cast<int>(kYears.high), 12, 31, 0.0});
   const double earliest_s = std::min(first_day.secondsSince(date_time_), 0.0);
   const double latest_s = std::max(last_day.secondsSince(date_time_) + kLastOfDay_s, 0.0);
-  const double elapsed_s = rate_ * (now - *start_).toSec();
+  const double elapsed_s = rate_ * secondsFrom(*start_, now);
   at_limit_ = elapsed_s < earliest_s || elapsed_s > latest_s;
   return date_time_.plusSeconds(std::clamp(elapsed_s, earliest_s, latest_s));
 }

@@ -93,7 +93,7 @@ void SunPositionNode::onClock(const ros::Time& now) {
   now_ = now;
   watch_.standsFor(now_);
   const bool jumped_back = now_ < last_now_;
-  if (jumped_back || (now_ - last_now_).toSec() >= 1.0 / options_.publish_rate_hz) return publish();
+  if (jumped_back || secondsFrom(last_now_, now_) >= 1.0 / options_.publish_rate_hz) return publish();
   standing_.start();
 }
 

@@ -141,6 +141,22 @@ class Recording(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(self.folder)), ["recording_1.bag"])
         self.assertEqual(self.union(40).first_missing(), 40)
 
+    def test_one_in_a_folder_that_an_experiment_writes_into_stays(self):
+        """Whoever records it may be another user, or in another container: nobody here sees what is open there."""
+        self.write("recording_1.bag", range(3))
+        self.kill("recording_1.bag")
+        before = sorted(os.listdir(self.folder))
+        with subprocess.Popen(["flock", self.folder, "sh", "-c", "echo; read _"], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
+            holder.stdout.readline()
+            with mock.patch.object(recording, "PATIENCE_S", 0.3), self.assertRaises(recording.RecordingError) as refused:
+                self.mend()
+            holder.communicate(b"\n")
+        self.assertEqual(str(refused.exception),
+                         f"another experiment is writing into {self.folder}: choose another output folder")
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+        self.mend()
+        self.assertEqual(sorted(os.listdir(self.folder)), ["recording_1.bag"])
+
     def test_one_that_another_is_about_is_waited_for_until_patience_ends(self):
         self.write("recording_1.bag", range(3))
         active = self.path("recording_1.bag.active")

@@ -187,6 +187,8 @@ double modelled(const scene::Lamp& lamp, const Eigen::Vector3d& way, double visi
   for (int i = 0; i < kSteps; ++i) {
     const double s = nearest + beside * std::tan(from + (to - from) * (i + 0.5) / kSteps);
     const Eigen::Vector3d away = s * way - at;
+    if (lamp.isSpot() && away.normalized().dot(lamp.direction.cast<double>()) < std::cos(lamp.outer_rad))
+      continue;
     const double c = -away.normalized().dot(way);
     sum += std::exp(-k * (s + away.norm())) / std::pow(1.0 + kG * kG - 2.0 * kG * c, 1.5);
   }
@@ -205,6 +207,24 @@ TEST_F(LampGlow, IsEvenWhereCellsAndTilesMeet) {
     }
   }
   // 3 % between corners, and steps of 0.2 rad.
+  EXPECT_LT(worst, 0.04);
+}
+
+TEST_F(LampGlow, OfAConeEndsSharplyAtItsEdge) {
+  // A street lamp's sharp cone, seen from beside it: straight edges down both of its flanks.
+  scene::Lamp lamp = lampAt({30.0f, 4.0f, 8.0f}, 1000.0f);
+  lamp.direction = Eigen::Vector3f(0.1f, -0.2f, -1.0f).normalized();
+  lamp.inner_rad = lamp.outer_rad = static_cast<float>(35.0 * kRadPerDeg);
+  const image::LinearImage picture = glow(renderer_, lamp, 150.0);
+  double most = 0.0, worst = 0.0;
+  for (int y = 100; y < 480; y += 3) {
+    for (int x = 100; x < 640; x += 3) {
+      const double exact = modelled(lamp, rayOf(x, y), 150.0, 400.0);
+      most = std::max(most, exact);
+      worst = std::max(worst, std::abs(*picture.at(x, y) - exact) / std::max(exact, 0.05 * most));
+    }
+  }
+  // As of lamps without one.
   EXPECT_LT(worst, 0.04);
 }
 

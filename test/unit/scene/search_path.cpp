@@ -78,8 +78,11 @@ TEST_F(SearchPathOfEnvironment, HasNoParentsOfAddressesThatAreNoFiles) {
   EXPECT_EQ(errorOf("model://a/b.world"),
             "there is no world model://a/b.world; there is no folder to look for it in");
   write("worlds/m.obj", "v 0 0 0\n");
-  const std::string world = "file://" + pathOf("worlds/w.sdf");
-  EXPECT_TRUE(ResourceFinder({}, world).find("model://m.obj", world).file.has_value());
+  for (const char* scheme : {"file://", "file://localhost", "file:"}) {
+    const std::string world = scheme + pathOf("worlds/w.sdf");
+    EXPECT_TRUE(ResourceFinder({}, world).find("model://m.obj", world).file.has_value()) << scheme;
+    EXPECT_EQ(ResourceFinder({}, "").find(scheme + pathOf("worlds/m.obj"), "").file, pathOf("worlds/m.obj"));
+  }
 }
 
 }  // namespace

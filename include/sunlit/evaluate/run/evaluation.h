@@ -27,9 +27,10 @@ struct Outcome {
   std::vector<SummaryRow> summary;
   std::vector<VerifiedSummaryRow> verified;
   std::size_t absent_poses = 0;  ///< of those expected: no image at all came
-  bool is_broken_off = false;    ///< before all that was whole was compared
-  /// Every pair of every pose was evaluated (or is undefined), there was one, and no stream was mostly
-  /// duplicates.
+  std::size_t not_mended = 0;  ///< pairs, or pictures, that earlier or merged runs left out, and this one too
+  bool is_broken_off = false;  ///< before all that was whole was compared
+  /// Every pair of every pose was evaluated (or is undefined), by this run or those that it takes up, there
+  /// was one, and no stream was mostly duplicates.
   bool isWhole() const;
 };
 

@@ -34,15 +34,19 @@ struct FogScatter::Line {
     nearest_m = towards.dot(way);
     beside_m = std::max((way - nearest_m * towards).norm(), std::max(of.beam_.radius_m(), 1e-3f));
     angle_rad = std::atan2(beside_m, nearest_m);
+    const LampBeam::Stretch lit = of.beam_.withinCone(start, towards);
+    lit_from = angleAt(lit.from);
+    lit_to = angleAt(lit.to);
   }
   /// From the lamp, at a right angle to the line or more.
   float angleAt(float distance_m) const { return std::atan((distance_m - nearest_m) / beside_m); }
   float distanceAt(float angle) const { return nearest_m + beside_m * std::tan(angle); }
 
   Eigen::Vector3f start;
-  float nearest_m;  ///< from the start to where the line is nearest to the lamp; behind it below 0
-  float beside_m;   ///< from there to the lamp
-  float angle_rad;  ///< between the line and the lamp, at the start
+  float nearest_m;         ///< from the start to where the line is nearest to the lamp; behind it below 0
+  float beside_m;          ///< from there to the lamp
+  float angle_rad;         ///< between the line and the lamp, at the start
+  float lit_from, lit_to;  ///< angles of angleAt(): within the lamp's cone
 };
 
 FogScatter::FogScatter(const LampBeam& beam, const sky::Fog& fog, const Eigen::Vector3f& eye)
@@ -50,8 +54,12 @@ FogScatter::FogScatter(const LampBeam& beam, const sky::Fog& fog, const Eigen::V
 
 Eigen::Vector3f FogScatter::middle(const Eigen::Vector3f& towards, float from_m, float to_m) const {
   const Line line(*this, towards);
-  const float angle = 0.5f * (line.angleAt(from_m) + line.angleAt(to_m));
-  return line.start + line.distanceAt(angle) * towards;
+  float from = line.angleAt(from_m), to = line.angleAt(to_m);
+  if (std::max(from, line.lit_from) < std::min(to, line.lit_to)) {
+    from = std::max(from, line.lit_from);
+    to = std::min(to, line.lit_to);
+  }
+  return line.start + line.distanceAt(0.5f * (from + to)) * towards;
 }
 
 void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slices, const LampOpen& open,
@@ -60,11 +68,14 @@ void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slice
   const Line line(*this, towards);
   const float per_m = fog_.per_m * std::max(1.0f / (1.0f + line.angle_rad / kHalved_rad), kLeastExtinction);
   Eigen::Array3f sum = Eigen::Array3f::Zero();
-  float from = line.angleAt(0.0f);
+  float end = line.angleAt(0.0f);
   for (std::size_t i = 0; i < FogSlices::kCount; ++i) {
-    const float to = line.angleAt(slices.end(i + 1));
+    const float begin = end;
+    end = line.angleAt(slices.end(i + 1));
+    // Cut off sharply at the cone: what steps there would meet by chance jumps from one line to the next.
+    const float from = std::max(begin, line.lit_from), to = std::min(end, line.lit_to);
     float of_slice = 0.0f;
-    const bool seen = open.passed[i] > 0.0f || open.last[i] > 0.0f;
+    const bool seen = from < to && (open.passed[i] > 0.0f || open.last[i] > 0.0f);
     const int steps = seen ? 1 + static_cast<int>(std::ceil((to - from) / kStep_rad)) : 0;
     for (int k = 0; k < steps; ++k) {
       // By equal angles from the lamp its 1 / r² is met: ds = r² / D dθ.
@@ -84,7 +95,6 @@ void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slice
       profile->last[i] += light * open.last[i];
     }
     profile->before[i + 1] += sum;
-    from = to;
   }
 }
 

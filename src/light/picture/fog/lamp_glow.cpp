@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "light/geometry/ray_list.h"
+#include "sunlit/quantity/photometry.h"
 
 namespace sunlit::light {
 namespace {
@@ -16,6 +17,8 @@ namespace {
 /// px beside a tile within which a lamp still glows so unevenly that corners of cells do not tell.
 constexpr float kMargin_px = 16.0f;
 constexpr float kNowhere_px = -1e6f;
+/// Of all that glows: a cone's edge changes more in the middle of a cell than corners tell.
+constexpr float kUneven = 0.01f;
 /// What a corner counts that looks less far than to a slice, or past one that is the last: what it knows may
 /// be of another room, and counts where no other corner knows more.
 constexpr float kUnlike = 0.01f;
@@ -25,6 +28,11 @@ GlowProfile dark() {
   profile.before.fill(Eigen::Array3f::Zero());
   profile.last.fill(Eigen::Array3f::Zero());
   return profile;
+}
+
+/// cd/m², of all of the fog.
+float luminanceOf(const GlowProfile& profile) {
+  return LinearRgb(profile.before.back()).luminance();
 }
 
 Eigen::Array3f at(const GlowProfile& profile, float place) {
@@ -110,9 +118,15 @@ LampGlow::LampGlow(const std::vector<scene::Lamp>* lamps, const sky::Fog& fog, c
   open_.resize(beams_.size());
   tbb::parallel_for(std::size_t{0}, beams_.size(), [&](std::size_t i) { findShadows(i, visibility); });
   profiles_.assign(corners_.size(), dark());
+  of_spots_.resize(beams_.size());
+  for (std::size_t lamp = 0; lamp < beams_.size(); ++lamp)
+    if (beams_[lamp].isSpot()) of_spots_[lamp].resize(corners_.size());
   tbb::parallel_for(std::size_t{0}, corners_.size(), [&](std::size_t i) {
-    for (std::size_t lamp = 0; lamp < beams_.size(); ++lamp)
+    for (std::size_t lamp = 0; lamp < beams_.size(); ++lamp) {
+      const float others = luminanceOf(profiles_[i]);
       add(lamp, corners_.x(i), corners_.y(i), &profiles_[i]);
+      if (beams_[lamp].isSpot()) of_spots_[lamp][i] = luminanceOf(profiles_[i]) - others;
+    }
   });
 }
 
@@ -195,13 +209,34 @@ std::vector<std::size_t> LampGlow::near(const Tile& tile) const {
   std::vector<std::size_t> near;
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     const Eigen::Vector2f& at = pixels_[i];
-    if (at.x() > static_cast<float>(tile.x) - kMargin_px &&
-        at.y() > static_cast<float>(tile.y) - kMargin_px &&
-        at.x() < static_cast<float>(tile.x + tile.width) + kMargin_px &&
-        at.y() < static_cast<float>(tile.y + tile.height) + kMargin_px)
-      near.push_back(i);
+    const bool beside = at.x() > static_cast<float>(tile.x) - kMargin_px &&
+                        at.y() > static_cast<float>(tile.y) - kMargin_px &&
+                        at.x() < static_cast<float>(tile.x + tile.width) + kMargin_px &&
+                        at.y() < static_cast<float>(tile.y + tile.height) + kMargin_px;
+    if (beside || (beams_[i].isSpot() && endsIn(tile, i))) near.push_back(i);
   }
   return near;
+}
+
+bool LampGlow::endsIn(const Tile& tile, std::size_t lamp) const {
+  constexpr float kHalf_px = 0.5f * static_cast<float>(kCell);
+  for (int y = tile.y; y < tile.y + tile.height; y += kCell) {
+    for (int x = tile.x; x < tile.x + tile.width; x += kCell) {
+      const float right = static_cast<float>(x) - 0.5f + kHalf_px,
+                  down = static_cast<float>(y) - 0.5f + kHalf_px;
+      const Among about = among(corners_, right, down);
+      float told = 0.0f, all = 0.0f;
+      for (std::size_t k = 0; k < 4; ++k) {
+        told += about.weights[k] * of_spots_[lamp][about.corners[k]];
+        all += about.weights[k] * luminanceOf(profiles_[about.corners[k]]);
+      }
+      GlowProfile there = dark();
+      add(lamp, right, down, &there);
+      const float own = luminanceOf(there);
+      if (std::abs(own - told) > kUneven * std::max(all, own)) return true;
+    }
+  }
+  return false;
 }
 
 /// Its pixels' profiles: of the corners of its cells, and of the lamps about it.

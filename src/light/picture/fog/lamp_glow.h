@@ -17,10 +17,10 @@
 
 namespace sunlit::light {
 
-/// Found along the corners of cells of pixels and interpolated, but in tiles about a lamp, whose glow is
-/// found there for each pixel: within 3 % of looking along each. What hides a lamp from the fog casts its
-/// shadow into it, coarsely: by rays along every fourth corner, each of a whole slice, or of its part before
-/// what is seen there.
+/// Found along the corners of cells of pixels and interpolated, but in tiles about a lamp or along the edge
+/// of its cone, where its glow is found for each pixel: within 3 % of looking along each. What hides a lamp
+/// from the fog casts its shadow into it, coarsely: by rays along every fourth corner, each of a whole slice,
+/// or of its part before what is seen there.
 class LampGlow {
  public:
   /// Keeps references to `surfaces` and `visibility`. `lamps` may be null. Casts rays, in parallel.
@@ -62,8 +62,10 @@ class LampGlow {
   void findShadows(std::size_t lamp, const Visibility& visibility);
   LampOpen openAt(std::size_t lamp, float x, float y) const;
   void add(std::size_t lamp, float x, float y, GlowProfile* profile) const;
-  /// Lamps that shine in the tile or just beside it.
+  /// Lamps that shine in the tile or just beside it, or whose cone ends in it.
   std::vector<std::size_t> near(const Tile& tile) const;
+  /// Whether a spot's glow is another amid the tile's cells than their corners tell.
+  bool endsIn(const Tile& tile, std::size_t lamp) const;
   /// Before a tile.
   class OfTile;
 
@@ -77,6 +79,7 @@ class LampGlow {
   std::vector<Sight> sights_;                  ///< at shadow_corners_
   std::vector<std::vector<OpenSlices>> open_;  ///< of each lamp, at shadow_corners_
   std::vector<GlowProfile> profiles_;          ///< at corners_; empty: nothing glows
+  std::vector<std::vector<float>> of_spots_;  ///< of each lamp with a cone, at corners_: all its glow, cd/m²
 };
 
 }  // namespace sunlit::light

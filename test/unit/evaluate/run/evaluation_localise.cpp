@@ -263,6 +263,33 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("out/comparisons.csv"))) << "never half of it";
 }
 
+// What was made of fewer poses does not stand beside the summary of all.
+TEST(EvaluationLocalise, ABrokenOffRunLeavesNoResultsOfAnEarlierEnd) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  {
+    Evaluation evaluation(options, {});
+    feed(evaluation, 0, 3);
+    EXPECT_FALSE(evaluation.finish().isWhole());
+    EXPECT_GT(evaluation.localise({}).key_frames, 0u);
+    evaluation.compareMethods();
+  }
+  const std::vector<std::string> results = {"localisation.csv", "localisation_poses.csv",
+                                            "localisation_summary.csv", "comparisons.csv"};
+  for (const std::string& name : results) EXPECT_TRUE(std::filesystem::exists(folder.file("out/" + name)));
+  {
+    Evaluation evaluation(options, {});
+    feed(evaluation, 3, kPoses);
+    evaluation.waitForRoom(0);
+    evaluation.finish(StopToken([] { return true; }));
+  }
+  for (const std::string& name : results)
+    EXPECT_FALSE(std::filesystem::exists(folder.file("out/" + name))) << name;
+  Evaluation again(options, {});
+  EXPECT_TRUE(finishAndLocalise(again).isWhole());
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+}
+
 // A whole run has forgotten what it observed: a longer one would be localised in a map of its new poses
 // alone.
 TEST(EvaluationLocalise, AWholeRunDoesNotGrow) {

@@ -130,6 +130,43 @@ TEST(OnePlace, IsToldAgainWhereTheRunThatFoundItWasKilled) {
   EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "two_places,0,500.000000000,h04-h12,"));
 }
 
+// Two recordings of one path, at the same stamps: one in July, one in December.
+TEST(OnePlace, ImagesOfOneStampButTwoSkiesAreNotCompared) {
+  const TemporaryFolder folder;
+  const auto capture = [](std::int64_t pose, const std::string& utc, double illuminance_lx) {
+    CaptureRecord record;
+    record.pose = pose;
+    record.stamp_ns = stampOf(pose);
+    record.scene_illuminance_lx = illuminance_lx;
+    record.utc_text = utc;
+    return record;
+  };
+  const std::string july = "2024-07-01T09:00:00.000Z", december = "2024-12-01T09:00:00.000Z";
+  Evaluation evaluation(optionsFor(folder), {});
+  for (std::int64_t pose = 0; pose < 4; ++pose) {
+    evaluation.addCapture(1, capture(pose, july, 81000.0));
+    feedPose(evaluation, pose);
+  }
+  evaluation.waitForRoom(0);
+  evaluation.addCapture(1, capture(0, july, 81000.0));  // rendered again
+  evaluation.addCapture(1, capture(1, december, 15000.0));
+  evaluation.addCapture(1, capture(2, july, 80000.0));
+  const Outcome outcome = evaluation.finish();
+  EXPECT_FALSE(outcome.isWhole());
+  EXPECT_EQ(outcome.counts.pairs[0].two_places, 2u);
+  EXPECT_EQ(outcome.counts.pairs[0].evaluated, 2u);
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  for (const std::string& line :
+       {"two_places,1,500.100000000,h04-h12,two captures of h12 at this stamp tell of skies of " + july +
+            " and " + december + ": are these two recordings?",
+        std::string("two_places,2,500.200000000,h04-h12,two captures of h12 at this stamp tell of 81000 and "
+                    "80000 lx: are these two recordings?")})
+    EXPECT_TRUE(hasLine(problems, line)) << problems;
+  const std::string captures = contentOf(folder.file("out/captures.csv"));
+  EXPECT_NE(captures.find(",81000\n"), std::string::npos);
+  EXPECT_EQ(captures.find(",15000\n"), std::string::npos) << "the first counts, as of images";
+}
+
 TEST(OnePlace, IsForgottenWhereNoImageComesForLong) {
   const TemporaryFolder folder;
   Evaluation evaluation(optionsFor(folder), {});

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 
 #include "evaluate/run/one_sun.h"
@@ -90,6 +91,57 @@ TEST(OneSun, IsToldByWhatWasExpectedAndSeen) {
             "its sky is of noon+3780, not of noon+0 + 180 s as by the first capture" + kLeftOut);
 }
 
+/// Poses of those of another site, where each sees the sun so many seconds after noon at an azimuth.
+Poses otherSitesOf(std::int64_t poses, const std::function<double(std::int64_t)>& clock_s,
+                   const std::function<double(std::int64_t)>& azimuth_deg) {
+  OneSite site;
+  Poses others;
+  for (std::int64_t pose = 0; pose < poses; ++pose) {
+    CaptureRecord capture = captureAt(pose, clock_s(pose));
+    capture.sun_azimuth_deg = azimuth_deg(pose);
+    capture.sun_elevation_deg = 30.0;
+    if (!site.faultOf(capture).empty()) others.push_back(pose);
+  }
+  return others;
+}
+
+// As where set_site is called, from pose 10 up to 12.
+TEST(OneSun, IsSeenFromOneSite) {
+  for (const double rate : {0.0, 1.0, 600.0, -600.0}) {
+    const auto clock = [=](std::int64_t pose) { return rate * 0.1 * static_cast<double>(pose); };
+    const auto turned = [=](std::int64_t pose) { return 180.0 + clock(pose) / 240.0; };
+    const auto moved = [=](double by_deg) {
+      return otherSitesOf(20, clock, [=](std::int64_t pose) {
+        return turned(pose) + (pose >= 10 && pose < 12 ? by_deg : 0.0);
+      });
+    };
+    EXPECT_EQ(moved(0.0), Poses()) << rate;
+    EXPECT_EQ(moved(40.0), (Poses{10, 11})) << rate;
+    EXPECT_EQ(moved(-2.0), (Poses{10, 11})) << rate;
+  }
+  const auto standing = [](std::int64_t /*pose*/) { return 0.0; };
+  EXPECT_EQ(otherSitesOf(3, standing, [](std::int64_t pose) { return pose == 2 ? 0.05 : 0.0; }), Poses{2});
+  // Of set_date_time is told by the clock alone.
+  const auto set = [](std::int64_t pose) { return pose == 2 ? kHour_s : 0.0; };
+  EXPECT_EQ(otherSitesOf(4, set, [&](std::int64_t pose) { return set(pose) / 240.0; }), Poses());
+}
+
+TEST(OneSun, OfAnotherSiteIsLeftOutAndNamed) {
+  Suns suns;
+  CaptureRecord capture = captureAt(0, 0.0);
+  capture.sun_elevation_deg = 20.0;
+  EXPECT_TRUE(suns.add("h12", capture).empty());
+  capture.stamp_ns = stampOf(1);
+  capture.sun_elevation_deg = 32.5;
+  const std::vector<OtherSun> others = suns.add("h12", capture);
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_EQ(
+      others[0].fault,
+      "its sun stands 12.5 deg from that of the captures before, farther than it turns meanwhile: was the "
+      "site set (set_site)? Left out; the same run again, with the site let alone, evaluates it");
+  EXPECT_TRUE(suns.isOther("h12", stampOf(1)));
+}
+
 struct SetMeanwhile {
   bool is_late = false;  ///< captures come once all is compared
   bool is_set = true;    ///< the sun of h04, from pose 2 on
@@ -138,6 +190,16 @@ TEST(OneSun, PicturesUnderAnotherAreNotComparedAndNamed) {
     for (const char* place : {"other_sun,2,500.200000000,h04,", "other_sun,3,500.300000000,h04,"})
       EXPECT_TRUE(hasLine(problems, place + ('"' + fault + '"'))) << problems;
     EXPECT_EQ(notes, "h04: pose 2: " + fault + "\n") << "once";
+    const std::string captures = contentOf(folder.file("out/captures.csv"));
+    EXPECT_TRUE(hasLine(captures, "h04,1,")) << captures;
+    EXPECT_FALSE(hasLine(captures, "h04,2,")) << captures;
+    EXPECT_TRUE(hasLine(captures, "h12,2,")) << captures;
+    const auto is_kept = [&](const std::string& picture) {
+      return std::filesystem::exists(folder.file("out/images/" + picture));
+    };
+    EXPECT_TRUE(is_kept("h04/000000.png"));
+    EXPECT_FALSE(is_kept("h04/000003.png")) << "nobody takes it for one of h04";
+    EXPECT_TRUE(is_kept("h12/000003.png"));
     EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("other_sun: 2, two_places: 0}"), std::string::npos);
   }
 }
@@ -154,6 +216,44 @@ TEST(OneSun, IsMendedByTheSameRunAgain) {
     EXPECT_EQ(outcome.counts.pairs[0].evaluated, 2u);
     EXPECT_EQ(contentOf(folder.file("out/problems.csv")), "kind,pose,stamp,where,reason\n");
   }
+}
+
+// Also by a run that is killed in its turn.
+TEST(OneSun, IsMendedOnce) {
+  const TemporaryFolder folder;
+  evaluated(folder, {true, true});
+  evaluated(folder, {true, false, true});
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")),
+                      "left_out_before,2,500.200000000,h04,\"other_sun: its sky is of noon+3600,"));
+  const Outcome outcome = evaluated(folder, {true, false});
+  EXPECT_EQ(outcome.counts.pairs[0].resumed, 4u);
+  EXPECT_EQ(outcome.counts.pairs[0].evaluated, 0u);
+  EXPECT_TRUE(outcome.isWhole());
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/captures.csv")), "h04,3,"));
+  EXPECT_EQ(contentOf(folder.file("out/problems.csv")), "kind,pose,stamp,where,reason\n");
+}
+
+TEST(OneSun, IsNamedOnceHoweverOftenItIsOther) {
+  const TemporaryFolder folder;
+  evaluated(folder, {true, true});
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  const Outcome outcome = evaluated(folder, {true, true});
+  EXPECT_EQ(outcome.counts.pairs[0].other_sun, 2u);
+  EXPECT_EQ(outcome.not_mended, 0u) << "counted as what this run met";
+  EXPECT_EQ(contentOf(folder.file("out/problems.csv")), problems);
+}
+
+// A renderer that begins anew sends pictures, too, that an earlier run evaluated under the right sun.
+TEST(OneSun, IsNotThatOfPicturesThatAreNotAskedFor) {
+  const TemporaryFolder folder;
+  evaluated(folder, {false, false});
+  const std::string captures = contentOf(folder.file("out/captures.csv"));
+  const Outcome outcome = evaluated(folder, {false, true});
+  EXPECT_TRUE(outcome.isWhole());
+  EXPECT_EQ(outcome.counts.streams[0].other_sun, 0u);
+  EXPECT_EQ(contentOf(folder.file("out/problems.csv")), "kind,pose,stamp,where,reason\n");
+  EXPECT_EQ(contentOf(folder.file("out/captures.csv")), captures);
+  EXPECT_EQ(evaluated(folder, {false, false}).counts.pairs[0].resumed, 4u);
 }
 
 TEST(OneSun, IsNotAskedForWhereCapturesDoNotTell) {

@@ -231,6 +231,51 @@ TEST(Merging, CountsWhatTwoShardsBothHoldOnce) {
   EXPECT_EQ(contentOf(folder.file("out/frames.csv")), contentOf(whole + "/frames.csv"));
 }
 
+/// Of four poses, at one of which h12 sends nothing, or half an image; or of other runs alone.
+Outcome lacking(const TemporaryFolder& folder, const std::string& name, std::int64_t lacks,
+                const std::vector<std::string>& merge, bool is_cut_short = false) {
+  EvaluationOptions options = optionsFor(folder);
+  options.output_dir = folder.file(name);
+  options.merge = merge;
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; merge.empty() && pose < 4; ++pose) {
+    CaptureRecord capture;
+    capture.pose = pose;
+    capture.stamp_ns = stampOf(pose);
+    evaluation.addCapture(0, capture);
+    for (std::size_t s = 0; s < 3; ++s) {
+      const bool is_missing = pose == lacks && s == 1;
+      if (is_missing && is_cut_short) evaluation.addBadImage(s, stampOf(pose), "ends within a row");
+      if (!is_missing) evaluation.addImage(s, stampOf(pose), picture(pose, s));
+    }
+  }
+  return evaluation.finish();
+}
+
+TEST(Merging, IsNotWholeBeforeWhatItsRunsLackWasEvaluated) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(lacking(folder, "lacks", 2, {}).isWhole());
+  const Outcome merged = lacking(folder, "merged", -1, {folder.file("lacks")});
+  EXPECT_FALSE(merged.isWhole());
+  EXPECT_EQ(merged.not_mended, 2u) << "the pairs of h12 with each other";
+  EXPECT_TRUE(hasLine(contentOf(folder.file("merged/problems.csv")),
+                      "missing_partner,2,500.200000000,h04-h12,no image of h12"));
+  EXPECT_NE(contentOf(folder.file("merged/run.yaml")).find("whole: false"), std::string::npos);
+  EXPECT_NE(contentOf(folder.file("merged/run.yaml")).find("not_mended: 2"), std::string::npos);
+  lacking(folder, "whole", -1, {});
+  EXPECT_TRUE(lacking(folder, "both", -1, {folder.file("lacks"), folder.file("whole")}).isWhole());
+  EXPECT_EQ(contentOf(folder.file("both/problems.csv")), "kind,pose,stamp,where,reason\n");
+  EXPECT_TRUE(lacking(folder, "merged", -1, {folder.file("whole")}).isWhole()) << "goes on";
+}
+
+TEST(AnImageThatWasCutShort, IsNoProblemOfTheRunThatGetsItWhole) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(lacking(folder, "out", 2, {}, true).isWhole());
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "undecodable,2,500.200000000,h12,"));
+  EXPECT_TRUE(lacking(folder, "out", -1, {}).isWhole());
+  EXPECT_EQ(contentOf(folder.file("out/problems.csv")), "kind,pose,stamp,where,reason\n");
+}
+
 TEST(WhereTheCameraStood, IsLeftOutAndNamedWhereItIsNoPlace) {
   const TemporaryFolder folder;
   Evaluation evaluation(optionsFor(folder), {});
