@@ -250,6 +250,7 @@ def conditions(text, hours):
                 raise BadArgument("conditions", text, f"with a value for {key} in {name}")
         _check_clock(name, differs, text)
         _check_choices(name, differs, text)
+        _check_given_once(name, differs, text)
         found[name] = {**_clock_time(differs["hour"]), **_at_clock_time(name, differs, text)}
     instead = "left out beside conditions, which have hours of their own: " + ", ".join(found)
     if parse("hours", hours, instead) != parse("hours", USUAL_HOURS, instead):
@@ -268,18 +269,24 @@ def times_of(asked):
     return {name: {key: value for key, value in one.items() if key in TIMES} for name, one in asked.items()}
 
 
+def _check_given_once(name, differs, text):
+    for key, (group, row) in CAMERA.items():
+        is_alone = key in differs and not isinstance(differs[key], dict)
+        if is_alone and isinstance(differs.get(group), dict) and row in differs[group]:
+            raise BadArgument("conditions", text, f"without both {key} and {group}: {{{row}: …}} in {name}, which are the same")
+
+
 def rendered_of(asked):
     """What is the business of the renderers, weather and camera: a list of names where there is none."""
     rendered = {}
     for name, one in asked.items():
+        _check_given_once(name, one, asked)
         rendered[name] = {key: value for key, value in one.items() if key in WEATHER}
         for key, value in one.items():
             if key in RENDERED and isinstance(value, dict):
                 rendered[name].setdefault(key, {}).update(value)
             elif key in CAMERA:
                 group, row = CAMERA[key]
-                if isinstance(one.get(group), dict) and row in one[group]:
-                    raise BadArgument("conditions", one, f"without both {key} and {group}: {{{row}: …}} in {name}, which are the same")
                 rendered[name].setdefault(group, {})[row] = value
     return _sent(rendered)
 

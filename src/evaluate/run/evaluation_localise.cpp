@@ -84,6 +84,17 @@ bool areOf(const EvaluationOptions& options, const std::vector<PairRecord>& reco
   return detectors == std::set<std::string>(asked.begin(), asked.end());
 }
 
+std::vector<std::unique_ptr<ObservationFile>> observationsOf(const std::vector<std::string>& folders) {
+  std::vector<std::unique_ptr<ObservationFile>> files;
+  for (const std::string& folder : folders) {
+    const std::string path = folder + "/" + kObservations;
+    if (!std::filesystem::exists(path))
+      throw std::runtime_error(path + ": is not there, so its poses cannot be localised with the others");
+    files.push_back(std::make_unique<ObservationFile>(path));
+  }
+  return files;
+}
+
 // Also where the pair of a picture failed, as where one of several detectors throws.
 std::set<std::string> localisedStreams(const std::vector<LocalisationRow>& rows) {
   std::set<std::string> streams;
@@ -188,19 +199,13 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
         suns_.isOther(key.stream, key.stamp_ns) || left_out_before_.count({key.stream, key.stamp_ns}) != 0;
     return is_named && evaluated.count({key.stream, key.stamp_ns}) == 0;
   };
-  std::vector<std::unique_ptr<ObservationFile>> merged;
+  const std::vector<std::unique_ptr<ObservationFile>> merged = observationsOf(options_.merge);
   const auto counting = [&](const ObservationKey& key) -> std::optional<std::int64_t> {
     if (!places_.fault(key.stamp_ns).empty() || isLeftOutPicture(key)) return std::nullopt;
     return poses_.settled(key.stamp_ns, key.pose);
   };
   ObservedDrives drives{{&observer_->observations()}, streamsOf(options_), counting};
-  for (const std::string& folder : options_.merge) {
-    const std::string path = folder + "/" + kObservations;
-    if (!std::filesystem::exists(path))
-      throw std::runtime_error(path + ": is not there, so its poses cannot be localised with the others");
-    merged.push_back(std::make_unique<ObservationFile>(path));
-    drives.files.push_back(merged.back().get());
-  }
+  for (const auto& other : merged) drives.files.push_back(other.get());
   const LocalisationOptions options = optionsOf(options_);
   const ObservedResult result =
       localiseObserved(drives, options, {callbacks.progress, callbacks.found, callbacks.stop});

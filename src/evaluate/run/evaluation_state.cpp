@@ -271,11 +271,15 @@ bool Evaluation::State::takes(std::int64_t stamp_ns, std::int64_t pose, std::siz
     if (held == held_.end()) withdraw(taken->second, pair);
     taken->second = stamp_ns;
   }
-  if (isHeld(stamp_ns, pose, pair)) return false;
-  if (held == held_.end()) return true;
+  return !isHeld(stamp_ns, pose, pair);
+}
+
+// What an earlier run evaluated of a later stamp of this pose, once there is something in its place.
+void Evaluation::State::replaceHeld(std::int64_t pose, std::size_t pair) {
+  const auto held = held_.find({pose, pair});
+  if (held == held_.end()) return;
   withdraw(held->second, pair);
   held_.erase(held);
-  return true;
 }
 
 // What is being evaluated still is left out when it is done; the file loses the rows at the end.

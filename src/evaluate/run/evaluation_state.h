@@ -88,6 +88,7 @@ class Evaluation::State {
   void handOverComplete(std::size_t most_bytes, std::int64_t newest_ns);
   void close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason);
   bool takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair);
+  void replaceHeld(std::int64_t pose, std::size_t pair);
   void withdraw(std::int64_t stamp_ns, std::size_t pair);
   bool isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
   bool isOfOtherSun(std::int64_t stamp_ns, std::size_t pair);

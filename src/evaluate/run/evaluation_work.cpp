@@ -177,6 +177,7 @@ std::optional<PairRecord> Evaluation::State::keep(const Work& work, const Values
     report({"failed", record.pose, record.stamp_ns, options_.pairs[record.pair].name(), *values.faults[i]});
     return std::nullopt;
   }
+  replaceHeld(record.pose, record.pair);
   if (isVerifying()) {
     if (!isSelfTested(record.pair)) {
       std::string bytes;

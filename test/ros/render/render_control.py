@@ -18,7 +18,7 @@ from rendering import Process, Reader, RenderNode, Sky, Sun, TIMEOUT_S, instant_
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import Trigger
-from sunlit.msg import Capture
+from sunlit.msg import Activity, Capture
 from sunlit.srv import RenderView
 from tf2_msgs.msg import TFMessage
 
@@ -72,6 +72,16 @@ class RenderControl(unittest.TestCase):
             self.assertLess(16 * (a_pose_ms - 0.5), 1000.0 * (time.monotonic() - resumed))
             self.assertEqual([image.header.stamp.to_nsec() for image in images],
                              [1000 * 10**9 + pose * 125 * 10**6 for pose in range(20)])
+
+            latest = lambda: rospy.wait_for_message("/controlled/activity", Activity, TIMEOUT_S).doing
+            deadline = time.monotonic() + TIMEOUT_S
+            while latest() != "done" and time.monotonic() < deadline:
+                time.sleep(0.05)
+            for name in ("start", "pause"):
+                answer = service("/controlled/" + name, Trigger)()
+                self.assertFalse(answer.success)
+                self.assertIn("all poses are rendered", answer.message)
+            self.assertEqual(latest(), "done")
         reader.close()
 
     def test_black_pictures_are_told_of(self):

@@ -36,6 +36,13 @@ class RenderRefuses(RefusalTest):
         self.assert_refused(parameters(exposure={"mode": "bright"}), "/refused/exposure/mode", "bright", "fixed, auto")
         self.assert_refused(parameters(subscribers={"of": ["my recorder"]}), "/refused/subscribers/of", "'my recorder'", "no node's name")
         self.assert_refused(parameters(subscribers={"of": [""]}), "/refused/subscribers/of", "''", "empty")
+        self.assert_refused(parameters(wait_for=["/evaluator/my progress"]), "/refused/wait_for", "'/evaluator/my progress'",
+                            "no topic's name")
+        self.assert_refused(parameters(wait_for=["~progress"]), "/refused/wait_for", "~ stands for this node")
+        self.assert_refused(parameters(sun_namespace="my suns"), "/refused/sun_namespace", "no namespace's name")
+        self.assert_refused(parameters(path={"file": "", "topic": "a path"}), "/refused/path/topic", "no topic's name")
+        self.assert_refused(parameters(conditions={"a": {"cover": 2, "weather": {"cover": 8}}}), "conditions/a/weather/cover",
+                            "conditions/a/cover are both given")
         for side in ("left", "right"):
             self.assert_refused(parameters(subscribers={side: 1}), "/refused/subscribers/%s is 1" % side, "there is no right camera")
         self.assert_refused(parameters(subscribers={"images": 2, "of": ["/recorder"]}), "/refused/subscribers/images is 2", "names 1")

@@ -253,6 +253,8 @@ class Plan(unittest.TestCase):
             self.assert_refused("argument %s is %r, but must be one of %s" % (name, word, words), **{name: word})
         self.assert_refused("with overcast as one of layer, cie in a, not 'cei'", conditions="{a: {hour: 4, overcast: cei}}")
         self.assert_refused("with exposure as one of fixed, auto in a, not 14", conditions="{a: {hour: 4, exposure: 14}}")
+        for both in ("ev100: 12, exposure: {mode: fixed, ev100: 10}", "exposure: {mode: fixed, ev100: 10}, ev100: 12"):
+            self.assert_refused("without both ev100 and exposure: {ev100: …} in a", conditions="{a: {hour: 4, %s}}" % both)
         planned(conditions="{a: {hour: 4, exposure: {mode: auto}}, b: {hour: 5, mosaic: rggb, overcast: layer}}")
 
     def test_what_is_given_for_nothing_is_refused(self):

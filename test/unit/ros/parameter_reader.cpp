@@ -123,6 +123,14 @@ TEST(ParameterReader, OverridesAreNamedByWholeKeyOrLastPart) {
   EXPECT_EQ(base.number("site/latitude", 0.0), 55.79);
   EXPECT_NO_THROW(reader.rejectUnknown());
 
+  overrides["site"]["latitude"] = 20.0;
+  EXPECT_EQ(messageOf([&] {
+              base.withOverrides(overrides, "/node/conditions/south").number("site/latitude", 0.0);
+            }),
+            "parameters /node/conditions/south/site/latitude and /node/conditions/south/latitude are both "
+            "given, and "
+            "the same");
+
   XmlRpcValue mistyped;
   mistyped["hours"] = 4;
   const ParameterReader wrong = base.withOverrides(mistyped, "/node/conditions/south");

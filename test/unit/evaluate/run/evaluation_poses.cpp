@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "sunlit/evaluate/differences/feature_difference.h"
+#include "support/moody_detector.h"
 #include "unit/evaluate/run/small_evaluation.h"
 
 namespace sunlit::evaluate {
@@ -156,6 +158,34 @@ TEST(TwoStampsOfOnePose, GiveTheSameFilesWhereARunWasCutOffBetweenThem) {
       EXPECT_EQ(pair.duplicate, 1u);
     }
   }
+}
+
+// What an earlier run made of the later stamp stays where the one that counts fails.
+TEST(TwoStampsOfOnePose, LoseNothingToOneThatFails) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = fastCameraOptions(folder);
+  options.comparer.known.add("moody", makeFeatureDifference(moodyDetector()));
+  options.comparer.differences = {"boolean_rgb", "moody"};
+  const auto feed = [](Evaluation& evaluation, int i, bool is_bad) {
+    for (std::size_t s = 0; s < 3; ++s) {
+      const cv::Mat image = picture(i, s, {120, 90});
+      evaluation.addImage(s, stampOfFastCamera(i), is_bad ? marked(image) : image);
+    }
+  };
+  std::string later;
+  {
+    Evaluation evaluation(options, {});
+    feed(evaluation, 51, false);
+    evaluation.finish();
+    later = contentOf(folder.file("out/frames.csv"));
+    ASSERT_TRUE(hasLine(later, "50,501.683168317,h04,h12,")) << later;
+  }
+  Evaluation evaluation(options, {});
+  feed(evaluation, 50, true);
+  const Outcome outcome = evaluation.finish();
+  EXPECT_EQ(outcome.counts.pairs[0].failed, 1u);
+  EXPECT_EQ(outcome.counts.pairs[0].resumed, 1u);
+  EXPECT_EQ(contentOf(folder.file("out/frames.csv")), later);
 }
 
 TEST(TwoStampsOfOnePose, HaveTheCaptureOfTheOneThatCounts) {
