@@ -44,11 +44,8 @@ void Evaluation::State::separate(std::int64_t stamp_ns) {
   for (const PairRecord& record : evaluated) {
     const bool is_left_out = isLeftOut(stamp_ns, record.pose, record.pair);
     if (is_left_out) withdraw(stamp_ns, record.pair);
-    for (const std::size_t stream : {pair_streams_[record.pair].first, pair_streams_[record.pair].second}) {
-      if (!is_left_out) kept.emplace(stream, record.pose);
-      if (is_of_two || suns_.isOther(options_.streams[stream], stamp_ns))
-        left_out.emplace(stream, record.pose);
-    }
+    for (const std::size_t stream : {pair_streams_[record.pair].first, pair_streams_[record.pair].second})
+      (is_left_out && is_of_two ? left_out : kept).emplace(stream, record.pose);
   }
   for (const auto& picture : left_out) {
     if (pictures_ && kept.count(picture) == 0)
@@ -82,6 +79,7 @@ void Evaluation::State::nameOtherSuns(std::size_t stream, const std::vector<Othe
     if (pose && !isAskedFor(stream, other.stamp_ns, *pose)) continue;
     report({kOtherSun, pose, other.stamp_ns, options_.streams[stream], other.fault});
     separate(other.stamp_ns);
+    if (pictures_ && pose) pictures_->remove(options_.streams[stream], *pose);
     if (++counts.other_sun > 1) continue;
     counts.other_sun_fault =
         (pose ? "pose " + std::to_string(*pose) : formatStamp(other.stamp_ns)) + ": " + other.fault;
