@@ -79,8 +79,8 @@ void Evaluation::addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d
   state_->addTruePose(stamp_ns, map_from_optical);
 }
 
-void Evaluation::addCamera(std::size_t stream, const Told<ViewCamera>& camera) {
-  state_->addCamera(stream, camera);
+void Evaluation::addCamera(std::size_t stream, std::int64_t stamp_ns, const Told<ViewCamera>& camera) {
+  state_->addCamera(stream, stamp_ns, camera);
 }
 
 void Evaluation::addPoseProblem(std::int64_t stamp_ns, const std::string& kind, const std::string& reason) {

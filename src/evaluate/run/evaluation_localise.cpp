@@ -147,12 +147,15 @@ void Evaluation::State::addPoseProblem(std::int64_t stamp_ns, const std::string&
   if (!is_finished_) report({kind, std::nullopt, stamp_ns, "pose", reason});
 }
 
-void Evaluation::State::addCamera(std::size_t stream, const Told<ViewCamera>& camera) {
+void Evaluation::State::addCamera(std::size_t stream, std::int64_t stamp_ns, const Told<ViewCamera>& camera) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_ || !observer_) return;
-  const bool is_first = !observer_->truth().camera(stream).has_come;
-  observer_->truth().addCamera(stream, camera);
-  if (!is_first) return;
+  observer_->truth().cameras(stream).add(stamp_ns, camera);
+  closeWhole();
+}
+
+// Those of earlier stamps, too, whose cameras will not come any more.
+void Evaluation::State::closeWhole() {
   for (const std::int64_t stamp : sets_.openStamps()) closeIfWhole(stamp);
 }
 

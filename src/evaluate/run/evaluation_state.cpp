@@ -77,6 +77,7 @@ void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival a
     case StampSets::Outcome::kClosed:
       return addLate(stream, stamp_ns, pose);
   }
+  if (observer_ && observer_->truth().cameras(stream).noteImage(stamp_ns)) closeWhole();
   closeIfWhole(stamp_ns);
   keepWithinMemory(stamp_ns);
 }

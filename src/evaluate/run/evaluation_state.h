@@ -43,7 +43,7 @@ class Evaluation::State {
   void add(const PlaceRecord& place);
   void addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth);
   void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
-  void addCamera(std::size_t stream, const Told<ViewCamera>& camera);
+  void addCamera(std::size_t stream, std::int64_t stamp_ns, const Told<ViewCamera>& camera);
   void addPoseProblem(std::int64_t stamp_ns, const std::string& kind, const std::string& reason);
   LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
   void compareMethods(const StopToken& stop);
@@ -82,6 +82,7 @@ class Evaluation::State {
   bool hasAllImages(const StampSet& set, std::int64_t pose) const;
   bool isWhole(const StampSet& set, std::int64_t pose) const;
   void closeIfWhole(std::int64_t stamp_ns);
+  void closeWhole();
   void addLate(std::size_t stream, std::int64_t stamp_ns, std::optional<std::int64_t> pose);
   void turnAway(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose);
   void keepWithinMemory(std::int64_t newest_ns);

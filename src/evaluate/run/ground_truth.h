@@ -13,24 +13,24 @@
 
 #include "evaluate/run/recent.h"
 #include "evaluate/run/stamp_sets.h"
+#include "evaluate/run/stream_cameras.h"
 #include "sunlit/evaluate/run/told.h"
-#include "sunlit/evaluate/view_camera.h"
 
 namespace sunlit::evaluate {
 
-/// Poses and depth come once a stamp, whatever the stream; a camera belongs to its stream. Of what comes
+/// Poses and depth come once a stamp, whatever the stream; a camera belongs to its stream, too. Of what comes
 /// twice the last counts. Poses without depth are remembered as Recent does.
 class GroundTruth {
  public:
   using Pose = Told<Eigen::Isometry3d>;  ///< map_from_optical
   using Depth = Told<cv::Mat>;           ///< as in PosedView
-  using Camera = Told<ViewCamera>;
+  using Camera = StreamCameras::Camera;
 
   /// Of one stamp.
   struct View {
     Pose map_from_optical;
     Depth depth;
-    std::vector<Camera> cameras;  ///< by stream, as they were when it was taken
+    std::vector<Camera> cameras;  ///< by stream
   };
 
   explicit GroundTruth(std::size_t streams) : cameras_(streams) {}
@@ -50,9 +50,7 @@ class GroundTruth {
     depth_bytes_ += bytesOf(depth.value) - bytesOf(view.depth.value);
     view.depth = depth;
   }
-  void addCamera(std::size_t stream, const Camera& camera) { cameras_.at(stream) = camera; }
-
-  const Camera& camera(std::size_t stream) const { return cameras_.at(stream); }
+  StreamCameras& cameras(std::size_t stream) { return cameras_.at(stream); }
   /// Pose and depth have come, usable or not.
   bool has(std::int64_t stamp_ns) const {
     const auto found = views_.find(stamp_ns);
@@ -67,7 +65,7 @@ class GroundTruth {
       depth_bytes_ -= bytesOf(view.depth.value);
       views_.erase(found);
     }
-    view.cameras = cameras_;
+    for (StreamCameras& cameras : cameras_) view.cameras.push_back(cameras.take(stamp_ns));
     return view;
   }
   /// Poses without depth.
@@ -87,7 +85,7 @@ class GroundTruth {
   }
 
  private:
-  std::vector<Camera> cameras_;
+  std::vector<StreamCameras> cameras_;
   std::map<std::int64_t, View> views_;  // with depth
   Recent<Pose> poses_alone_;
   std::size_t depth_bytes_ = 0;

@@ -34,8 +34,9 @@ class Observer {
   explicit Observer(const Setup& setup);
 
   GroundTruth& truth() { return truth_; }
-  /// Pose and depth of the stamp are here, and the cameras of those streams that are `needed`.
-  bool isReady(std::int64_t stamp_ns, const std::vector<char>& needed) const;
+  /// Pose and depth of the stamp are here, and its cameras of those streams that are `needed`, or will not
+  /// come.
+  bool isReady(std::int64_t stamp_ns, const std::vector<char>& needed);
   /// Why a picture of this size can be no key frame or query; empty where it can, or need not.
   std::string faultOf(std::size_t stream, const GroundTruth::View& truth, const cv::Size& size) const;
   bool observes(std::size_t stream, const std::string& detector) const;

@@ -97,8 +97,9 @@ class BagSource {
       } else if (const auto capture = captures_.find(topic); capture != captures_.end()) {
         evaluation.addCapture(capture->second, captureOf(*messageOf<Capture>(instance)));
       } else if (const auto camera = cameras_.find(topic); camera != cameras_.end()) {
-        evaluation.addCamera(camera->second,
-                             cameraOf(*messageOf<sensor_msgs::CameraInfo>(instance), topics::kImage));
+        const auto message = messageOf<sensor_msgs::CameraInfo>(instance);
+        evaluation.addCamera(camera->second, nanosecondsOf(message->header.stamp),
+                             cameraOf(*message, topics::kImage));
       } else if (topic != place_topic_) {
         const auto depth = messageOf<sensor_msgs::Image>(instance);
         evaluation.addDepth(nanosecondsOf(depth->header.stamp), depthOf(*depth, max_pixels_));

@@ -91,7 +91,9 @@ void ImageIntake::subscribeToTruth() {
         evaluation_.options().streams[s] + "/" + topics::kCameraInfo, kQueue,
         [this, s, images = node_.resolveName(imagesTopicOf(evaluation_.options().streams[s]))](
             const sensor_msgs::CameraInfo::ConstPtr& message) {
-          guarded([&] { evaluation_.addCamera(s, cameraOf(*message, images)); });
+          guarded([&] {
+            evaluation_.addCamera(s, nanosecondsOf(message->header.stamp), cameraOf(*message, images));
+          });
         });
   }
 }

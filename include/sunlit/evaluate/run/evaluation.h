@@ -92,13 +92,14 @@ class Evaluation {
   void addPlace(const PlaceRecord& place);
 
   /// For what is localised, where options().localisation has a map: depth of a stamp as PosedView has it,
-  /// where the camera stood, and a stream's camera. Of what comes twice the last counts. Stamps wait for
-  /// them.
+  /// where the camera stood, and a stream's camera: each is that of its stamp; but one alone, as a sender
+  /// that latches it sends, is that of all. Of what comes twice the last counts. Stamps wait for them, for a
+  /// camera until one of a later stamp has come.
   void addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth);
   /// Whatever is localised: pairs of a stamp of which poses of different places come are not evaluated (more
   /// than 1 cm or 0.1° apart), but for those of one stream with itself, and nothing of it is localised.
   void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
-  void addCamera(std::size_t stream, const Told<ViewCamera>& camera);
+  void addCamera(std::size_t stream, std::int64_t stamp_ns, const Told<ViewCamera>& camera);
   /// Names in problems.csv what is wrong with poses from this stamp on, though they are used.
   void addPoseProblem(std::int64_t stamp_ns, const std::string& kind, const std::string& reason);
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -79,7 +80,7 @@ void feedTruth(Evaluation& evaluation, std::int64_t pose) {
 template <typename PictureOf>
 void feedImages(Evaluation& evaluation, std::int64_t pose, std::size_t streams, const PictureOf& pictureOf) {
   for (std::size_t s = 0; s < streams; ++s) {
-    evaluation.addCamera(s, told(viewOf(pose).camera));
+    evaluation.addCamera(s, stampOf(pose), told(viewOf(pose).camera));
     evaluation.addImage(s, stampOf(pose), pictureOf(pose, s));
   }
 }
@@ -218,6 +219,70 @@ TEST(EvaluationLocalise, ImagesWaitForTheirDepth) {
   for (std::int64_t pose = kPoses; pose-- > 0;) feedTruth(evaluation, pose);
   EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+}
+
+/// What a run of all poses writes, where `feedOf` gives a stream's image and camera of a pose.
+struct Localised {
+  LocalisationOutcome outcome;
+  std::string rows, problems;
+};
+Localised localisedBy(
+    const std::function<void(Evaluation& evaluation, std::size_t stream, std::int64_t pose)>& feedOf) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(localising(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    for (std::size_t s = 0; s < 3; ++s) feedOf(evaluation, s, pose);
+  }
+  evaluation.waitForRoom(0);
+  evaluation.finish();
+  const LocalisationOutcome outcome = evaluation.localise({});
+  return {outcome, contentOf(folder.file("out/localisation.csv")),
+          contentOf(folder.file("out/problems.csv"))};
+}
+
+TEST(EvaluationLocalise, TakesTheCameraOfEachImagesOwnStampWhicheverComesFirst) {
+  // Another lens from pose 2 on.
+  const auto camera = [](std::int64_t pose) { return told(pose < 2 ? viewOf(pose).camera : kBent); };
+  const auto in_order = [&](bool is_image_first) {
+    return localisedBy([&](Evaluation& evaluation, std::size_t s, std::int64_t pose) {
+      if (!is_image_first) evaluation.addCamera(s, stampOf(pose), camera(pose));
+      evaluation.addImage(s, stampOf(pose), lit(pose, s));
+      if (is_image_first) evaluation.addCamera(s, stampOf(pose), camera(pose));
+    });
+  };
+  const Localised camera_first = in_order(false), image_first = in_order(true);
+  EXPECT_EQ(image_first.rows, camera_first.rows);
+  EXPECT_NE(image_first.rows, expectedRows());
+  EXPECT_EQ(image_first.problems, camera_first.problems);
+}
+
+TEST(EvaluationLocalise, OneWithoutACameraOfItsStampIsNamedAndNoOther) {
+  for (const bool is_there : {false, true}) {
+    const Localised found = localisedBy([&](Evaluation& evaluation, std::size_t s, std::int64_t pose) {
+      evaluation.addImage(s, stampOf(pose), lit(pose, s));
+      const bool is_bad = s == 2 && pose == 1;
+      if (is_bad && is_there) evaluation.addCamera(s, stampOf(pose), unusable<ViewCamera>("fx is 0"));
+      if (!is_bad) evaluation.addCamera(s, stampOf(pose), told(viewOf(pose).camera));
+    });
+    EXPECT_EQ(found.outcome.unobserved, 1u);
+    const std::string fault =
+        is_there ? "camera/camera_info: fx is 0" : "no camera/camera_info of this stamp";
+    EXPECT_EQ(found.problems,
+              "kind,pose,stamp,where,reason\nunlocalised,1,500.100000000,night," + fault + "\n");
+  }
+}
+
+TEST(EvaluationLocalise, OneCameraAloneIsThatOfAllImages) {
+  const Localised found = localisedBy([&](Evaluation& evaluation, std::size_t s, std::int64_t pose) {
+    if (pose == 0) evaluation.addCamera(s, 0, told(viewOf(pose).camera));
+    evaluation.addImage(s, stampOf(pose), lit(pose, s));
+    if (pose < 3 || s < 2) return;
+    evaluation.waitForRoom(0);
+    EXPECT_EQ(evaluation.counts().completed_poses, 4u) << "they do not wait for the end";
+  });
+  EXPECT_TRUE(found.outcome.isWhole());
+  EXPECT_EQ(found.rows, expectedRows());
 }
 
 TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
