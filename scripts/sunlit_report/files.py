@@ -25,6 +25,7 @@ OLD_CAPTURES = f"stream,pose,stamp,ev100,{_SKY}"
 CAPTURES = f"stream,pose,stamp,ev100,exposure_mode,{_SKY}"
 PATH = "pose,stamp,x,y,z,yaw_deg"
 PROBLEMS = "kind,pose,stamp,where,reason"
+LOCALISATION_PROBLEMS = "stream,role,stamp,fault"
 TIMING = "stage,what,count,seconds"
 
 
@@ -173,10 +174,22 @@ def read_output(folder):
         matches=find_images(os.path.join(folder, "matches")),
         lost=lost_rows.read(os.path.join(folder, "lost_features.csv")),
         positions=queries.read_positions(os.path.join(folder, "localisation_poses.csv")),
-        problems=list(rows(os.path.join(folder, "problems.csv"), PROBLEMS, {"pose": optional_whole})),
+        problems=read_problems(folder),
         timing=[row for file in sorted(glob.glob(os.path.join(glob.escape(folder), "timing*.csv")))
                 for row in rows(file, TIMING, {"count": whole, "seconds": number})],
     )
+
+
+def read_problems(folder):
+    """As problems.csv has them; those of localisation.csv's pictures, whose kind stands before the rest where it has one, as well."""
+    problems = list(rows(os.path.join(folder, "problems.csv"), PROBLEMS, {"pose": optional_whole}))
+    for row in rows(os.path.join(folder, "localisation_problems.csv"), LOCALISATION_PROBLEMS, {}):
+        kind, _, reason = row["fault"].partition(": ")
+        if not reason or not re.fullmatch("[a-z]+_[a-z]+|duplicate", kind):
+            kind, reason = "unlocalised", row["fault"]
+        problems.append({"kind": kind, "pose": None, "stamp": row["stamp"], "where": f"{row['stream']} ({row['role']})",
+                         "reason": reason})
+    return problems
 
 
 def read_frames(path):

@@ -36,12 +36,18 @@ def warnings(output):
     found += _under_other_suns(output)
     outcome = tables.mapping(output.run, "outcome")
     if outcome.get("whole") is False:
-        before = outcome.get("not_mended") or 0
-        found.append(f"The run is not whole: {outcome.get('completed_poses', '?')} poses were completed, "
-                     f"{outcome.get('absent_poses', '?')} are absent"
-                     + (f", {before} pairs or pictures lack that earlier or merged runs left out" if before else "")
-                     + ". See counters and problems.")
-    return found
+        found.append(f"The run is not whole: {_lacking(output.run, outcome)}. See counters and problems.")
+    frames = [row["reason"] for row in output.problems if row["kind"] == "other_frame"]
+    return found + [f"Poses are of several frames: {reason}." for reason in frames[:1]]
+
+
+def _lacking(run, outcome):
+    left_out = sum(count for pair in tables.mapping(tables.mapping(run, "counters"), "pairs").values() if isinstance(pair, dict)
+                   for kind, count in pair.items() if kind not in ("evaluated", "resumed") and isinstance(count, int))
+    lacks = [(outcome.get("absent_poses"), "poses are absent"), (left_out, "pairs could not be evaluated"),
+             (outcome.get("not_mended"), "pairs or pictures were left out by earlier or merged runs")]
+    return (f"{outcome.get('completed_poses', '?')} poses came, "
+            + (", ".join(f"{count} {what}" for count, what in lacks if count) or "but no stream of them is what was sent"))
 
 
 def _compares_features(series):

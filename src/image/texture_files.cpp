@@ -110,7 +110,7 @@ std::string formatOf(const std::uint8_t* bytes, std::size_t size) {
   return "";
 }
 
-constexpr const char* kAreRead = "PNG, JPEG, BMP, TIFF, TGA and WebP are understood";
+constexpr const char* kAreRead = "PNG, JPEG, BMP, TIFF, TGA, WebP and PPM are understood";
 
 /// What a grey PNG cuts out (ISO/IEC 15948, 11.3.2.1), in samples as OpenCV decodes them, which leaves that
 /// out; nothing for other pictures. The bytes are those of a picture that it has decoded.

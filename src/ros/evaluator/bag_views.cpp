@@ -142,7 +142,8 @@ void BagViews::readIndex() {
     const std::string topic = withSlash(instance.getTopic());
     if (topic == index.images_topic) {
       requireImage(instance, true);
-      if (!index.images.emplace(stampOf(instance), instance).second) ++repeated_;
+      const std::int64_t stamp_ns = stampOf(instance);
+      if (!index.images.emplace(stamp_ns, instance).second) repeated_.push_back(stamp_ns);
     } else if (topic == index.depths_topic) {
       requireImage(instance, false);
       if (!index.depths.emplace(stampOf(instance), instance).second) ++repeated_depths_;

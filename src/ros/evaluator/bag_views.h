@@ -48,7 +48,8 @@ class BagViews {
   const std::vector<Entry>& entries() const { return entries_; }  ///< by rising stamp
   /// Of which pictures have one place at one number: the bag, or the stream where captures do not number it.
   const std::string& drive() const { return drive_; }
-  std::size_t repeated() const { return repeated_; }  ///< images left out, of a stamp that was there
+  /// Of images left out: of a stamp that was there.
+  const std::vector<std::int64_t>& repeated() const { return repeated_; }
   std::size_t repeatedDepths() const { return repeated_depths_; }  ///< likewise
   /// Of poses, each once, in the order in which they first come; with the stamp of the first.
   const std::vector<std::pair<std::string, std::int64_t>>& frames() const { return frames_; }
@@ -80,7 +81,7 @@ class BagViews {
   std::unique_ptr<Index> index_;
   std::vector<Entry> entries_;
   std::string drive_;
-  std::size_t repeated_ = 0;
+  std::vector<std::int64_t> repeated_;
   std::size_t repeated_depths_ = 0;
   std::vector<std::pair<std::string, std::int64_t>> frames_;
 };

@@ -26,8 +26,9 @@ std::unique_ptr<BagViews> ViewSource::open(const BagStream& stream) const {
   std::printf("reading %s of %s\n", stream.name.c_str(), stream.bag.c_str());
   std::fflush(stdout);
   auto views = std::make_unique<BagViews>(stream, options_.topics, options_.intake);
-  if (views->repeated() > 0)
-    std::printf("%s: %zu images left out, whose stamps repeat\n", stream.name.c_str(), views->repeated());
+  if (!views->repeated().empty())
+    std::printf("%s: %zu images left out, whose stamps repeat\n", stream.name.c_str(),
+                views->repeated().size());
   if (views->repeatedDepths() > 0)
     std::printf("%s: %zu pictures of depth left out, whose stamps repeat\n", stream.name.c_str(),
                 views->repeatedDepths());
@@ -47,8 +48,11 @@ void ViewSource::noteFrames(const BagViews& views, bool is_of_map) {
 std::vector<std::size_t> ViewSource::usable(const BagViews& views, bool needs_depth) {
   noteFrames(views, needs_depth);
   evaluate::StreamCounts counts;
-  counts.received = views.entries().size() + views.repeated();
-  counts.duplicate = views.repeated();
+  counts.received = views.entries().size() + views.repeated().size();
+  counts.duplicate = views.repeated().size();
+  for (const std::int64_t stamp_ns : views.repeated())
+    problems_.push_back({views.stream().name, needs_depth, stamp_ns,
+                         "duplicate: this stamp had come before; the first image counts", true});
   if (views.entries().size() == 1) counts.only_stamp_ns = views.entries()[0].stamp_ns;
   if (const std::string fault = faultOfStamps(counts); !fault.empty())
     addProblem(views.stream(), needs_depth, views.entries()[0].stamp_ns, fault);

@@ -187,7 +187,8 @@ TEST(DecodeRgba, NamesTgaThatIsCutOff) {
 TEST(DecodeRgba, NamesFormatsThatAreNotReadAndWhatToDo) {
   const auto error = [](const std::string& format, const std::string& program) {
     return "test: this is a " + format +
-           " picture, and not read; PNG, JPEG, BMP, TIFF, TGA and WebP are understood, whatever the file's "
+           " picture, and not read; PNG, JPEG, BMP, TIFF, TGA, WebP and PPM are understood, whatever the "
+           "file's "
            "name: "
            "convert it to PNG, by " +
            program;
@@ -209,7 +210,8 @@ std::string ofFloats(const char* ending, int type, double number) {
 TEST(DecodeRgba, FloatsAreNoValuesOfADisplay) {
   const auto error = [](const std::string& what) {
     return "test: this is a " + what +
-           "picture of floats, and not read as a texture; PNG, JPEG, BMP, TIFF, TGA and WebP are understood "
+           "picture of floats, and not read as a texture; PNG, JPEG, BMP, TIFF, TGA, WebP and PPM are "
+           "understood "
            "with 8 or 16 bits a channel: convert it to PNG, by ImageMagick or GIMP";
   };
   const std::string hdr = ofFloats(".hdr", CV_32FC3, 0.18), tiff = ofFloats(".tiff", CV_32FC1, 0.18);

@@ -280,6 +280,25 @@ class Files(InFolder):
                          ["3 pictures of 4 h were taken under another sun than its first, at poses from 7 to 9, and are left out of all "
                           "numbers. Of the first of them: its sky is of noon, not of 7."])
 
+    def test_problems_of_localised_pictures_are_told_as_others_are(self):
+        self.write("localisation.csv", made.queries())
+        self.write("localisation_problems.csv", [files.LOCALISATION_PROBLEMS, 'eve,query,1.5,"no_features: orb found nothing in it"',
+                                                 "eve,query,2.5,no camera_info of this stamp",
+                                                 'eve,query,3.5,"camera/depth/image_raw: its size is 0"',
+                                                 'eve,query,4.5,"other_frame: poses are in odom, not map"'])
+        output = self.read()
+        self.assertEqual(tables.problems(output), [("no_features", 1), ("other_frame", 1), ("unlocalised", 2)])
+        self.assertEqual([(row["stamp"], row["where"], row["reason"]) for row in output.problems][:2],
+                         [("1.5", "eve (query)", "orb found nothing in it"), ("2.5", "eve (query)", "no camera_info of this stamp")])
+        self.assertIn("Poses are of several frames: poses are in odom, not map.", warnings.warnings(output))
+
+    def test_why_a_run_is_not_whole_is_pointed_out(self):
+        self.write("frames.csv", made.frames())
+        self.write("run.yaml", ["outcome: {whole: false, completed_poses: 25, absent_poses: 0, not_mended: 4}", "counters:",
+                                "  pairs: {h04-h12: {evaluated: 20, resumed: 3, missing_partner: 1, failed: 1}}"])
+        self.assertIn("The run is not whole: 25 poses came, 2 pairs could not be evaluated, 4 pairs or pictures were left out by earlier "
+                      "or merged runs. See counters and problems.", warnings.warnings(self.read()))
+
     def test_summary_of_other_frames_is_pointed_out(self):
         self.write("frames.csv", made.frames(differences=["sift"], pairs=made.PAIRS[:1]))
         self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])
