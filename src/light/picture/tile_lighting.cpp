@@ -65,7 +65,7 @@ void TileLighting::lightMirrored(const TileInMirrors& tile, const std::vector<Ei
   const std::vector<Surface>& met = mirrors.met.surfaces.tiles[number].surfaces;
   const Surfaces& before = depth == 0 ? picture_.seen.surfaces : picture_.mirrors[depth - 1].met.surfaces;
   for (const Reflections::Mirroring& mirroring : reflections.surfaces) {
-    Eigen::Array3f sum = Eigen::Array3f::Zero();
+    Eigen::Array3f sum = mirroring.shining;
     for (std::uint32_t i = mirroring.first; i < mirroring.first + mirroring.count; ++i)
       sum += leaving[i] * met[i].share;
     // Seen from the mirror, which lies in fog that the eye may be above.

@@ -14,7 +14,8 @@ namespace sunlit::light {
 namespace {
 
 constexpr std::uint32_t kMostBlocks = 4;
-constexpr float kPart = 0.8f;  ///< of the lobe's half width, that blocks may be high
+constexpr float kLeastRise = 1e-4f;  ///< above the surface: lower ones are none
+constexpr float kPart = 0.8f;        ///< of the lobe's half width, that blocks may be high
 
 }  // namespace
 
@@ -60,6 +61,17 @@ Eigen::Vector2f pointOf(const Surface& surface, const LobePixels& pixels, std::u
           within(row, other, reach.down, uniform(pixel, 2 * ray + 1))};
 }
 
+struct Cosines {
+  float n_v, n_l, v_h;
+};
+
+/// LobeRay::weight.
+float weightOf(const Surface& surface, const Ggx<float>& facets, const Cosines& of) {
+  const float f0 = normalReflectance(LinearRgb(surface.albedo).luminance(), surface.metalness);
+  const float fresnel = f0 + (1.0f - f0) * schlick(of.v_h);
+  return fresnel * facets.shadowing(of.n_l, of.n_v);
+}
+
 }  // namespace
 
 LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const LobePixels& pixels,
@@ -75,10 +87,19 @@ LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const Lob
   const float v_h = std::clamp(eye.dot(half), 0.0f, 1.0f);
   const Eigen::Vector3f to = 2.0f * v_h * half - eye;
   const Eigen::Vector3f towards = MirrorFrame(normal, to_eye).inMap(to);
-  if (!(to.z() > 1e-4f)) return {towards.normalized(), 0.0f};
-  const float f0 = normalReflectance(LinearRgb(surface.albedo).luminance(), surface.metalness);
-  const float fresnel = f0 + (1.0f - f0) * schlick(v_h);
-  return {towards.normalized(), fresnel * facets.shadowing(to.z(), n_v)};
+  if (!(to.z() > kLeastRise)) return {towards.normalized(), 0.0f};
+  return {towards.normalized(), weightOf(surface, facets, {n_v, to.z(), v_h})};
+}
+
+LobeAt lobeAt(const Surface& surface, const Eigen::Vector3f& to_eye, const Eigen::Vector3f& towards) {
+  const Eigen::Vector3f& normal = surface.shading_normal;
+  const float n_v = std::clamp(normal.dot(to_eye), 1e-3f, 1.0f), n_l = normal.dot(towards);
+  if (!(n_l > kLeastRise)) return {0.0f, 0.0f};
+  const Eigen::Vector3f half = (to_eye + towards).normalized();
+  const auto facets = Ggx<float>::ofRoughness(surface.roughness);
+  const float n_h = std::clamp(normal.dot(half), 0.0f, 1.0f);
+  const float density = facets.distribution(n_h) / (4.0f * n_v * (1.0f + facets.lambda(n_v)));
+  return {density, density * weightOf(surface, facets, {n_v, n_l, std::clamp(to_eye.dot(half), 0.0f, 1.0f)})};
 }
 
 }  // namespace sunlit::light

@@ -44,4 +44,11 @@ struct LobeRay {
 LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const LobePixels& pixels,
                 std::uint32_t ray);
 
+/// A direction, unit, as lobeRay() finds it where fillsLobe() is true: how often, 1/sr; and how bright it
+/// shows there, times that: with both 0 light from there is not mirrored.
+struct LobeAt {
+  float density, weighted;
+};
+LobeAt lobeAt(const Surface& surface, const Eigen::Vector3f& to_eye, const Eigen::Vector3f& towards);
+
 }  // namespace sunlit::light

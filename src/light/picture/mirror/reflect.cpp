@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "light/geometry/ray_list.h"
 #include "light/geometry/ray_start.h"
 #include "light/picture/mirror/lobe_rays.h"
+#include "light/picture/mirror/shining_in_lobes.h"
+#include "light/picture/mirror/shining_list.h"
 #include "light/shading/glass_sheets.h"
 #include "light/shading/mirrored_by_rays.h"
 #include "light/shading/shading.h"
@@ -45,8 +48,10 @@ Eigen::Vector3f clear(const Surface& surface, Eigen::Vector3f towards) {
 
 class TileMirror {
  public:
-  TileMirror(const Surfaces& surfaces, Onlooker onlooker, const MirroredWorld& world)
+  TileMirror(const Surfaces& surfaces, Onlooker onlooker, const MirroredWorld& world,
+             const ShiningList& shining)
       : surfaces_(surfaces),
+        shining_(shining),
         pixels_(lobePixels(surfaces)),
         onlooker_(onlooker),
         scene_(world.scene),
@@ -73,12 +78,20 @@ class TileMirror {
     if (all->empty()) return;
     hits.resize(cast.rays.size());
     visibility_.closest(cast.rays.rays(), hits.data());
+    std::optional<ShiningInLobes> shining;
+    if (shining_.any())
+      shining.emplace(shining_, ShiningInLobes::Scene{visibility_, vertices_, glass_, pixels_.width}, tile,
+                      *all);
     for (std::size_t begin = 0; begin < hits.size();) {
       Reflections::Mirroring& mirroring = (*all)[cast.rays.number()[begin]];
-      sort({tile.surfaces[mirroring.surface], cast, hits, begin, begin + mirroring.rays}, &mirroring,
-           &found->open, seen);
+      sort({tile.surfaces[mirroring.surface], cast, hits, begin, begin + mirroring.rays,
+            shining ? &*shining : nullptr},
+           &mirroring, &found->open, seen);
       begin += mirroring.rays;
     }
+    if (!shining) return;
+    shining->add(
+        all, [&](const Surface& surface, const Eigen::Vector3f& origin) { return toEye(surface, origin); });
   }
 
  private:
@@ -98,6 +111,7 @@ class TileMirror {
     const CastRays& cast;
     const std::vector<Hit>& hits;
     std::size_t begin, end;
+    const ShiningInLobes* shining;  ///< null: nothing shines
 
     Eigen::Vector3f origin(std::size_t i) const {
       const Rays all = cast.rays.rays();
@@ -116,12 +130,15 @@ class TileMirror {
     for (std::uint32_t i = 0; i < mirroring.rays; ++i) {
       const std::size_t at = surface.first_sample + i;
       const Eigen::Vector3f origin = rayStart(tile, at);
-      const Eigen::Vector3f to_eye =
-          onlooker_ == Onlooker::kCamera ? (surfaces_.eye - origin).normalized() : surface.to_eye;
-      const LobeRay ray = lobeRay(surface, to_eye, pixels_, i);
+      const LobeRay ray = lobeRay(surface, toEye(surface, origin), pixels_, i);
       cast->rays.add(number, origin, clear(surface, ray.towards));
       cast->weights.push_back(ray.weight);
     }
+  }
+
+  Eigen::Vector3f toEye(const Surface& surface, const Eigen::Vector3f& origin) const {
+    return onlooker_ == Onlooker::kCamera ? Eigen::Vector3f((surfaces_.eye - origin).normalized())
+                                          : surface.to_eye;
   }
 
   /// What one ray met.
@@ -157,7 +174,7 @@ class TileMirror {
       if (misses)
         open->push_back({looked.towards(i), through});
       else
-        met.push_back({hit, vertices_.at(hit, looked.towards(i)), through});
+        met.push_back({hit, vertexOf(looked, i), through});
     }
     for (std::size_t i = 0; i < met.size(); ++i) {
       if (!met[i].taken) add(looked.surface, i, &met, seen);
@@ -165,6 +182,15 @@ class TileMirror {
     if (!fillsLobe(looked.surface)) joinFrom(mirroring->first_open, open);
     mirroring->open_count = static_cast<std::uint32_t>(open->size()) - mirroring->first_open;
     mirroring->count = static_cast<std::uint32_t>(seen->surfaces.size()) - mirroring->first;
+  }
+
+  /// Where a ray ends, with as much of its own light as counts of that.
+  Vertex vertexOf(const Looked& looked, std::size_t i) const {
+    Vertex vertex = vertices_.at(looked.hits[i], looked.towards(i));
+    if (looked.shining != nullptr && vertex.emission.maxCoeff() > 0.0f)
+      vertex.emission *= looked.shining->countedOf(
+          {looked.surface, toEye(looked.surface, looked.origin(i)), looked.towards(i)}, looked.hits[i]);
+    return vertex;
   }
 
   /// Rays that hardly part look at one place of the sky.
@@ -240,6 +266,7 @@ class TileMirror {
   }
 
   const Surfaces& surfaces_;
+  const ShiningList& shining_;
   LobePixels pixels_;
   Onlooker onlooker_;
   const scene::Scene& scene_;
@@ -276,7 +303,8 @@ Reflections reflect(const Surfaces& surfaces, Onlooker onlooker, const MirroredW
   Reflections made;
   made.tiles.resize(surfaces.tiles.size());
   layOutLike(surfaces, seen);
-  const TileMirror mirror(surfaces, onlooker, world);
+  const ShiningList shining(world.visibility.fixedGeometry());
+  const TileMirror mirror(surfaces, onlooker, world, shining);
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(),
                     [&](std::size_t i) { mirror.look(surfaces.tiles[i], &made.tiles[i], &seen->tiles[i]); });
   if (std::all_of(made.tiles.begin(), made.tiles.end(),

@@ -15,13 +15,15 @@ namespace sunlit::light {
 struct Reflections {
   /// One of a tile's surfaces.
   struct Mirroring {
-    std::uint32_t surface;  ///< index into Tile::surfaces
-    float by_rays;          ///< share of its mirrored light that rays tell, 0 … 1
+    std::uint32_t surface = 0;  ///< index into Tile::surfaces
+    float by_rays = 0.0f;       ///< share of its mirrored light that rays tell, 0 … 1
     std::uint32_t rays = 0;
     float weight = 0.0f;  ///< of its rays together, by LobeRay::weight, which all shares are parts of
     std::uint32_t first = 0, count = 0;  ///< what they met, in `seen`; Surface::share is of all of them
     std::uint32_t first_open = 0, open_count = 0;  ///< those that met nothing, in TileReflections::open
     float nearest_m = std::numeric_limits<float>::infinity();  ///< that they met
+    /// Luminance, cd/m², beside what they met: of what shines, as far as it was looked for.
+    Eigen::Array3f shining = Eigen::Array3f::Zero();
   };
   /// Rays that met nothing.
   struct Open {
