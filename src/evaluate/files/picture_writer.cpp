@@ -71,6 +71,10 @@ void PictureWriter::remove(const std::string& stream, std::int64_t pose) {
   std::filesystem::remove(pathOf(stream, pose));
 }
 
+void PictureWriter::removeOf(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns) {
+  if (isClaimedBy(stream, pose, stamp_ns)) remove(stream, pose);
+}
+
 std::vector<std::int64_t> PictureWriter::posesOf(const std::string& stream) const {
   std::vector<std::int64_t> poses;
   std::error_code none;

@@ -24,6 +24,8 @@ class PictureWriter {
   void write(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns, const cv::Mat& rgb);
   /// Removes a picture, where it is there.
   void remove(const std::string& stream, std::int64_t pose);
+  /// The same of one that is that of this stamp by claim().
+  void removeOf(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns);
   /// Poses of which a stream has a picture.
   std::vector<std::int64_t> posesOf(const std::string& stream) const;
   /// Gives pictures their final number.

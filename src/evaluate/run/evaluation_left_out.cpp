@@ -31,33 +31,37 @@ bool Evaluation::State::isLeftOut(std::int64_t stamp_ns, std::optional<std::int6
   return isOfTwoPlaces(stamp_ns, pose, pair) || isOfOtherSun(stamp_ns, pair);
 }
 
-// What was evaluated before that was known, with its pictures. What earlier runs evaluated is not of this
-// run's images.
+// What was evaluated before that was known. What earlier runs evaluated is not of this run's images.
 void Evaluation::State::separate(std::int64_t stamp_ns) {
   std::vector<PairRecord> evaluated;
   for (const PairRecord& record : records_) {
     if (record.stamp_ns == stamp_ns && held_.count({record.pose, record.pair}) == 0)
       evaluated.push_back(record);
   }
-  const bool is_of_two = !places_.fault(stamp_ns).empty();
-  std::set<std::pair<std::size_t, std::int64_t>> left_out, kept;  // streams and poses
   for (const PairRecord& record : evaluated) {
-    const bool is_left_out = isLeftOut(stamp_ns, record.pose, record.pair);
-    if (is_left_out) withdraw(stamp_ns, record.pair);
-    for (const std::size_t stream : {pair_streams_[record.pair].first, pair_streams_[record.pair].second})
-      (is_left_out && is_of_two ? left_out : kept).emplace(stream, record.pose);
+    if (isLeftOut(stamp_ns, record.pose, record.pair)) withdraw(stamp_ns, record.pair);
   }
-  for (const auto& picture : left_out) {
-    if (pictures_ && kept.count(picture) == 0)
-      pictures_->remove(options_.streams[picture.first], picture.second);
+  const std::optional<std::int64_t> pose = poses_.known(stamp_ns);
+  if (pose && !places_.fault(stamp_ns).empty()) removePictures(stamp_ns, *pose);
+}
+
+// Of two places, but for those of streams that are compared with themselves.
+void Evaluation::State::removePictures(std::int64_t stamp_ns, std::int64_t pose) {
+  if (!pictures_) return;
+  std::set<std::size_t> kept;
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    if (isSelfTested(p) && isWanted(p, pose)) kept.insert({pair_streams_[p].first, pair_streams_[p].second});
   }
+  for (std::size_t s = 0; s < options_.streams.size(); ++s)
+    if (kept.count(s) == 0) pictures_->removeOf(options_.streams[s], pose, stamp_ns);
 }
 
 // Of a picture that is asked for: what earlier runs evaluated is not of this run's images.
 bool Evaluation::State::isLeftOutCapture(const std::string& stream, const CaptureRecord& capture) const {
   const auto number = static_cast<std::size_t>(
       std::find(options_.streams.begin(), options_.streams.end(), stream) - options_.streams.begin());
-  return suns_.isOther(stream, capture.stamp_ns) && isAskedFor(number, capture.stamp_ns, capture.pose);
+  const std::int64_t pose = poses_.settled(capture.stamp_ns, capture.pose);
+  return suns_.isOther(stream, capture.stamp_ns) && isAskedFor(number, capture.stamp_ns, pose);
 }
 
 // Streams and stamps that a run in `folder`, or one before it, left out.
@@ -79,7 +83,7 @@ void Evaluation::State::nameOtherSuns(std::size_t stream, const std::vector<Othe
     if (pose && !isAskedFor(stream, other.stamp_ns, *pose)) continue;
     report({kOtherSun, pose, other.stamp_ns, options_.streams[stream], other.fault});
     separate(other.stamp_ns);
-    if (pictures_ && pose) pictures_->remove(options_.streams[stream], *pose);
+    if (pictures_ && pose) pictures_->removeOf(options_.streams[stream], *pose, other.stamp_ns);
     if (++counts.other_sun > 1) continue;
     counts.other_sun_fault =
         (pose ? "pose " + std::to_string(*pose) : formatStamp(other.stamp_ns)) + ": " + other.fault;

@@ -150,13 +150,16 @@ void Evaluation::State::addPoseProblem(std::int64_t stamp_ns, const std::string&
 void Evaluation::State::addCamera(std::size_t stream, std::int64_t stamp_ns, const Told<ViewCamera>& camera) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_ || !observer_) return;
-  observer_->truth().cameras(stream).add(stamp_ns, camera);
-  closeWhole();
+  observer_->truth().cameras(stream).add(stamp_ns, camera, !sets_.isTaken(stamp_ns));
+  closeWhole(stamp_ns);
 }
 
-// Those of earlier stamps, too, whose cameras will not come any more.
-void Evaluation::State::closeWhole() {
-  for (const std::int64_t stamp : sets_.openStamps()) closeIfWhole(stamp);
+// Of stamps up to that one: the cameras of those before it will not come any more.
+void Evaluation::State::closeWhole(std::int64_t last_ns) {
+  for (const std::int64_t stamp : sets_.openStamps()) {
+    if (stamp > last_ns) return;
+    closeIfWhole(stamp);
+  }
 }
 
 // Names the pictures that can be neither key frame nor query.
@@ -194,7 +197,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
     if (isWholePath()) std::filesystem::remove(file(kObservations));  // the empty one of this run
     return outcome;
   }
-  forgetLocalised();
+  if (canLocalise()) forgetLocalised();
   const Pictures evaluated = evaluatedPictures(options_, records_);
   // By this run, or by an earlier one, and not evaluated since, or before that.
   const auto isLeftOutPicture = [&](const ObservationKey& key) {
@@ -241,6 +244,11 @@ std::vector<LocalisationRow> Evaluation::State::localisedBefore() const {
     if (!areOf(options_, records_, rows)) return {};
   }
   return unobserved(streamsOf(options_), rows) == 0 ? rows : std::vector<LocalisationRow>();
+}
+
+// There is what new results can be made of.
+bool Evaluation::State::canLocalise() const {
+  return !options_.merge.empty() || !observer_->observations().keys().empty();
 }
 
 void Evaluation::State::forgetLocalised() const {

@@ -179,14 +179,8 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
   if (isVerifying()) drawn_ = std::make_unique<PictureWriter>(file("matches"));
 }
 
-Evaluation::State::LeftLines& Evaluation::State::LeftLines::operator+=(const LeftLines& other) {
-  torn += other.torn;
-  asked_again += other.asked_again;
-  return *this;
-}
-
 // Reads what a run left in `folder`.
-Evaluation::State::LeftLines Evaluation::State::takeUp(const std::string& folder) {
+LeftLines Evaluation::State::takeUp(const std::string& folder) {
   LoadedFrames loaded = loadFrames(folder + "/frames.csv", layout_);
   LeftLines left{loaded.dropped_lines, leaveOutNamed(folder, options_.pairs, loaded.records)};
   left.torn += takeUpVerified(folder, loaded.records);

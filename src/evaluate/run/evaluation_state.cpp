@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace sunlit::evaluate {
@@ -77,7 +78,8 @@ void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival a
     case StampSets::Outcome::kClosed:
       return addLate(stream, stamp_ns, pose);
   }
-  if (observer_ && observer_->truth().cameras(stream).noteImage(stamp_ns)) closeWhole();
+  if (observer_ && observer_->truth().cameras(stream).noteImage(stamp_ns))
+    closeWhole(std::numeric_limits<std::int64_t>::max());
   closeIfWhole(stamp_ns);
   keepWithinMemory(stamp_ns);
 }

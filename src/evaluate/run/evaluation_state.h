@@ -65,11 +65,6 @@ class Evaluation::State {
   void takeUpEarlierRuns();
   void requireMergeable(const std::string& folder) const;
   void requireNothingForgotten() const;
-  /// Lines that are not taken up.
-  struct LeftLines {
-    std::size_t torn = 0, asked_again = 0;
-    LeftLines& operator+=(const LeftLines& other);
-  };
   LeftLines takeUp(const std::string& folder);
   void tellTakenUp(const LeftLines& left) const;
   void noteLeftOutBefore(const std::string& folder);
@@ -82,7 +77,7 @@ class Evaluation::State {
   bool hasAllImages(const StampSet& set, std::int64_t pose) const;
   bool isWhole(const StampSet& set, std::int64_t pose) const;
   void closeIfWhole(std::int64_t stamp_ns);
-  void closeWhole();
+  void closeWhole(std::int64_t last_ns);
   void addLate(std::size_t stream, std::int64_t stamp_ns, std::optional<std::int64_t> pose);
   void turnAway(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose);
   void keepWithinMemory(std::int64_t newest_ns);
@@ -96,6 +91,7 @@ class Evaluation::State {
   bool isLeftOut(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
   void nameOtherSuns(std::size_t stream, const std::vector<OtherSun>& others);
   void separate(std::int64_t stamp_ns);
+  void removePictures(std::int64_t stamp_ns, std::int64_t pose);
   bool isLeftOutCapture(const std::string& stream, const CaptureRecord& capture) const;
   bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
   bool isSample(std::int64_t pose) const;
@@ -117,6 +113,7 @@ class Evaluation::State {
   void observeSet(const StampSet& set, Work& work);
   std::size_t truthBytes() const { return observer_ ? observer_->truth().bytes() : 0; }
   std::vector<LocalisationRow> localisedBefore() const;
+  bool canLocalise() const;
   void forgetLocalised() const;
   bool hasForgottenObservations(const std::string& folder) const;
   bool isWholePath() const;

@@ -87,12 +87,15 @@ void Evaluation::State::keepFinalDrawn() {
   if (!drawn_) return;
   rankAll();
   std::size_t absent = 0;
+  std::set<std::pair<std::int64_t, std::size_t>> verified;  // poses and pairs
+  for (const VerifiedRecord& record : verified_) verified.emplace(record.pose, record.pair);
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
     for (std::size_t d = 0; !isSelfTested(p) && d < verified_layout_.differences.size(); ++d) {
       const std::vector<std::int64_t> drawn = drawn_->posesOf(drawnName(p, d));
       const ExtremePoses& ranked = extremes(p, d);
       for (const std::int64_t pose : drawn) {
-        if (!ranked.has(pose) && !isSample(pose)) drawn_->remove(drawnName(p, d), pose);
+        const bool is_sample = isSample(pose) && verified.count({pose, p}) != 0;
+        if (!ranked.has(pose) && !is_sample) drawn_->remove(drawnName(p, d), pose);
       }
       for (const std::int64_t pose : ranked.poses())
         absent += std::count(drawn.begin(), drawn.end(), pose) == 0;

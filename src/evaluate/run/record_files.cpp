@@ -59,8 +59,11 @@ void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
 
 void RecordFiles::add(const std::string& stream, const CaptureRecord& capture, bool is_held) {
   if (!come_.emplace(stream, capture.stamp_ns).second) return;
-  if (is_held && captures_.count({stream, capture.pose}) != 0) return;
-  if (captures_.empty()) captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
+  if (const auto held = captures_.find({stream, capture.pose}); held != captures_.end()) {
+    if (is_held) return;
+    if (come_.count({stream, held->second.stamp_ns}) == 0) captures_.erase(held);
+  }
+  openCaptures();
   keep(stream, capture);
   captures_file_.append(lineOf(stream, capture));
   noteImage(capture.stamp_ns);  // even if it never comes
@@ -73,6 +76,7 @@ void RecordFiles::keep(const std::string& stream, const CaptureRecord& capture) 
 
 void RecordFiles::writeCaptures(const std::vector<std::string>& streams) {
   captures_file_.close();
+  is_open_ = false;
   const auto rank = [&](const std::string& stream) {
     return std::find(streams.begin(), streams.end(), stream) - streams.begin();
   };
@@ -84,7 +88,12 @@ void RecordFiles::writeCaptures(const std::vector<std::string>& streams) {
   std::string text = std::string(kCapturesHeader) + "\n";
   for (const auto& item : sorted) text += lineOf(item.first, item.second);
   image::writeFileAtomically(folder_ + "/captures.csv", text);
-  captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
+  openCaptures();
+}
+
+void RecordFiles::openCaptures() {
+  if (!is_open_) captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
+  is_open_ = true;
 }
 
 LeftOutPlaces RecordFiles::finish(const std::vector<std::string>& streams, const IsLeftOut& is_left_out,

@@ -26,8 +26,8 @@ class RecordFiles {
   RecordFiles(const std::string& folder, PoseIndex& poses);
   /// Adds what a run in another folder left.
   void merge(const std::string& other_folder, PoseIndex& poses);
-  /// Of those of one stream and stamp the first counts that comes, as of images; an earlier run's only where
-  /// that `is_held`: its picture is not evaluated again.
+  /// Of those of one stream and stamp the first counts that comes, as of images; one of an earlier run only
+  /// where this `is_held`: its picture is not evaluated again.
   void add(const std::string& stream, const CaptureRecord& capture, bool is_held);
   void add(const PlaceRecord& place) { path_.add(place); }
   /// An image of this stamp came.
@@ -41,12 +41,25 @@ class RecordFiles {
   void read(const std::string& folder, PoseIndex& poses);
   void keep(const std::string& stream, const CaptureRecord& capture);
   void writeCaptures(const std::vector<std::string>& streams);
+  void openCaptures();
   std::string folder_;
   AppendFile captures_file_;
+  bool is_open_ = false;
   std::map<std::pair<std::string, std::int64_t>, CaptureRecord>
       captures_;  // by stream and pose: of the earliest stamp, as frames.csv
   std::set<std::pair<std::string, std::int64_t>> come_;  // streams and stamps, in this run
   PathFile path_;
+};
+
+/// How many lines of an earlier run are not taken up.
+struct LeftLines {
+  std::size_t torn = 0, asked_again = 0;
+
+  LeftLines& operator+=(const LeftLines& other) {
+    torn += other.torn;
+    asked_again += other.asked_again;
+    return *this;
+  }
 };
 
 /// One thing that did not go as it should.

@@ -20,17 +20,23 @@ class StreamCameras {
  public:
   using Camera = Told<ViewCamera>;
 
-  void add(std::int64_t stamp_ns, const Camera& camera) {
+  /// `is_wanted`: its image may still come, or wait.
+  void add(std::int64_t stamp_ns, const Camera& camera, bool is_wanted = true) {
+    if (Camera* held = waiting_.find(stamp_ns)) {  // sent twice
+      *held = camera;
+      if (only_) only_ = camera;
+      return;
+    }
+    if (only_ && stamp_ns == newest_ns_) {
+      only_ = camera;
+      return;
+    }
     ++count_;
     is_latched_ = false;
     lacking_.clear();
     only_ = count_ == 1 ? std::optional<Camera>(camera) : std::nullopt;
     newest_ns_ = count_ == 1 ? stamp_ns : std::max(newest_ns_, stamp_ns);
-    if (Camera* held = waiting_.find(stamp_ns)) {
-      *held = camera;
-    } else {
-      waiting_.add(stamp_ns, camera);
-    }
+    if (is_wanted) waiting_.add(stamp_ns, camera);
   }
   /// An image came. True where it is the first to show that one camera is that of all: it and those before it
   /// lack one of their own.
@@ -56,7 +62,7 @@ class StreamCameras {
   /// all.
   static constexpr std::size_t kLacking = 3;
 
-  std::size_t count_ = 0;       ///< that came
+  std::size_t count_ = 0;       ///< stamps that came
   std::optional<Camera> only_;  ///< of one alone
   std::int64_t newest_ns_ = 0;
   std::set<std::int64_t> lacking_;  ///< stamps of images, as long as there is one camera

@@ -65,7 +65,8 @@ void TileLighting::lightMirrored(const TileInMirrors& tile, const std::vector<Ei
   const std::vector<Surface>& met = mirrors.met.surfaces.tiles[number].surfaces;
   const Surfaces& before = depth == 0 ? picture_.seen.surfaces : picture_.mirrors[depth - 1].met.surfaces;
   for (const Reflections::Mirroring& mirroring : reflections.surfaces) {
-    Eigen::Array3f sum = mirroring.shining;
+    Eigen::Array3f sum = Eigen::Array3f::Zero();
+    if (mirroring.weight > 0.0f) sum = mirroring.shining / mirroring.weight;
     for (std::uint32_t i = mirroring.first; i < mirroring.first + mirroring.count; ++i)
       sum += leaving[i] * met[i].share;
     // Seen from the mirror, which lies in fog that the eye may be above.

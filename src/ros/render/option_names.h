@@ -8,8 +8,11 @@
 
 namespace sunlit::ros_interface {
 
-/// Throws std::invalid_argument with the parameter's name where one cannot be such a name: what roscpp says
-/// when it is used comes after the bake, and without it.
+/// Throws std::invalid_argument where `name`, a value of `parameter`, cannot be that of a `what`: node, topic
+/// or namespace. What roscpp says when it is used comes after the bake, and names no parameter.
+void requireName(const std::string& parameter, const std::string& name, const std::string& what);
+
+/// The same of all topics and namespaces.
 void requireNames(const ParameterReader& parameters, const RenderNodeOptions& options);
 
 }  // namespace sunlit::ros_interface

@@ -77,7 +77,7 @@ TEST(LobeRays, TogetherSeeWhatTheLobeDoes) {
 
 // Over all directions it is one, but for those below the surface; and what it weighs is what rays weigh.
 TEST(LobeRays, AreAsDenseAsIsSaid) {
-  for (const double n_v : {0.2, 0.6, 0.95}) {
+  for (const double n_v : {-0.05, 0.2, 0.6, 0.95}) {
     for (const float roughness : {0.2f, 0.45f}) {
       Surface surface = seenFrom(n_v, roughness);
       double sum = 0.0;
@@ -102,8 +102,10 @@ TEST(LobeRays, AreAsDenseAsIsSaid) {
           EXPECT_NEAR(at.weighted / at.density, ray.weight, 1e-3f * ray.weight);
         }
       }
-      // 51,200 rays have 0.2 % of noise.
-      EXPECT_NEAR(sum, static_cast<double>(above) / all, 0.01) << n_v << ", roughness " << roughness;
+      // 51,200 rays have 0.2 % of noise. Of an eye along the surface, or below, the sum is too coarse.
+      if (n_v > 0.1) {
+        EXPECT_NEAR(sum, static_cast<double>(above) / all, 0.01) << n_v << ", roughness " << roughness;
+      }
     }
   }
 }

@@ -61,6 +61,12 @@ Eigen::Vector2f pointOf(const Surface& surface, const LobePixels& pixels, std::u
           within(row, other, reach.down, uniform(pixel, 2 * ray + 1))};
 }
 
+/// In the frame of MirrorFrame: as if it were never below the surface.
+Eigen::Vector3f eyeOver(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_eye) {
+  const float n_v = std::clamp(normal.dot(to_eye), 1e-3f, 1.0f);
+  return {-std::sqrt(1.0f - n_v * n_v), 0.0f, n_v};
+}
+
 struct Cosines {
   float n_v, n_l, v_h;
 };
@@ -78,8 +84,8 @@ LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const Lob
                 std::uint32_t ray) {
   const Eigen::Vector3f& normal = surface.shading_normal;
   if (!fillsLobe(surface)) return {mirrored(to_eye, normal), 1.0f};
-  const float n_v = std::clamp(normal.dot(to_eye), 1e-3f, 1.0f);
-  const Eigen::Vector3f eye(-std::sqrt(1.0f - n_v * n_v), 0.0f, n_v);
+  const Eigen::Vector3f eye = eyeOver(normal, to_eye);
+  const float n_v = eye.z();
   const Eigen::Vector2f point = pointOf(surface, pixels, ray);
   const float radius = std::sqrt(point.x()), turn = 2.0f * kPiFloat * point.y();
   const auto facets = Ggx<float>::ofRoughness(surface.roughness);
@@ -92,14 +98,16 @@ LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const Lob
 }
 
 LobeAt lobeAt(const Surface& surface, const Eigen::Vector3f& to_eye, const Eigen::Vector3f& towards) {
-  const Eigen::Vector3f& normal = surface.shading_normal;
-  const float n_v = std::clamp(normal.dot(to_eye), 1e-3f, 1.0f), n_l = normal.dot(towards);
+  const MirrorFrame frame(surface.shading_normal, to_eye);
+  const Eigen::Vector3f eye = eyeOver(surface.shading_normal, to_eye);
+  const float n_v = eye.z(), n_l = surface.shading_normal.dot(towards);
   if (!(n_l > kLeastRise)) return {0.0f, 0.0f};
-  const Eigen::Vector3f half = (to_eye + towards).normalized();
+  const Eigen::Vector3f half =
+      (eye + Eigen::Vector3f(towards.dot(frame.along), towards.dot(frame.left), n_l)).normalized();
   const auto facets = Ggx<float>::ofRoughness(surface.roughness);
-  const float n_h = std::clamp(normal.dot(half), 0.0f, 1.0f);
+  const float n_h = std::clamp(half.z(), 0.0f, 1.0f);
   const float density = facets.distribution(n_h) / (4.0f * n_v * (1.0f + facets.lambda(n_v)));
-  return {density, density * weightOf(surface, facets, {n_v, n_l, std::clamp(to_eye.dot(half), 0.0f, 1.0f)})};
+  return {density, density * weightOf(surface, facets, {n_v, n_l, std::clamp(eye.dot(half), 0.0f, 1.0f)})};
 }
 
 }  // namespace sunlit::light

@@ -244,7 +244,7 @@ class TileMirror {
       surface.to_eye += reflection.to_eye;
       surface.shading_normal += reflection.normal;
       surface.albedo += reflection.albedo;
-      surface.emission += other.vertex.emission;
+      surface.emission += other.vertex.emission * other.through;
       surface.roughness += reflection.roughness;
       surface.metalness += reflection.metalness;
       surface.film += other.vertex.film;
@@ -257,7 +257,9 @@ class TileMirror {
     surface.position *= each;
     surface.to_eye.normalize();
     surface.shading_normal.normalize();
-    for (Eigen::Array3f* sum : {&surface.albedo, &surface.emission}) *sum *= each;
+    surface.albedo *= each;
+    // Of which as much may count as of no other: see ShiningInLobes.
+    surface.emission = (surface.share > 0.0f).select(surface.emission / surface.share.max(1e-30f), 0.0f);
     surface.roughness *= each;
     surface.metalness *= each;
     surface.film *= each;

@@ -22,7 +22,8 @@ struct Reflections {
     std::uint32_t first = 0, count = 0;  ///< what they met, in `seen`; Surface::share is of all of them
     std::uint32_t first_open = 0, open_count = 0;  ///< those that met nothing, in TileReflections::open
     float nearest_m = std::numeric_limits<float>::infinity();  ///< that they met
-    /// Luminance, cd/m², beside what they met: of what shines, as far as it was looked for.
+    /// Of what shines, as far as it was looked for, beside what they met: luminance, cd/m², times the weight
+    /// of each point; over `weight` it is that which the surface shows.
     Eigen::Array3f shining = Eigen::Array3f::Zero();
   };
   /// Rays that met nothing.

@@ -86,7 +86,10 @@ RoughOnes collect(const Surfaces& surfaces, const Reflections& reflections, Mirr
                     mirroring.nearest_m,
                     static_cast<int>(surface.pixel % width),
                     static_cast<int>(surface.pixel / width)};
-    ones.shown[at] = {mirroring.weight * *luminance, mirroring.weight};
+    // Where all of its rays went below the surface, points of what shines count for those about.
+    ones.shown[at] = {
+        mirroring.weight > 0.0f ? Eigen::Array3f(mirroring.weight * *luminance) : mirroring.shining,
+        mirroring.weight};
     ones.luminances[at] = luminance;
     return true;
   });

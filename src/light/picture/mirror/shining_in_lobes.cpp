@@ -68,8 +68,8 @@ void ShiningInLobes::aim(const Reflections::Mirroring& mirroring, std::uint32_t 
   const Eigen::Array3f emission = scene_.vertices.at(point.hit, towards).emission;
   const float clear = 2.0f * rayClearance_m(point.position, distance_m) / distance_m;
   if (!(clear < 1.0f) || !(emission.maxCoeff() > 0.0f)) return;
-  sights_.push_back({number, start, (1.0f - clear) * way,
-                     emission * (lobe.weighted / ((by_point + lobe.density) * mirroring.weight))});
+  sights_.push_back(
+      {number, start, (1.0f - clear) * way, emission * (lobe.weighted / (by_point + lobe.density))});
 }
 
 void ShiningInLobes::cast(std::vector<Reflections::Mirroring>* mirrorings) {
@@ -83,7 +83,7 @@ void ShiningInLobes::cast(std::vector<Reflections::Mirroring>* mirrorings) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (blocked[i] != 0) continue;
     const Sight& sight = sights_[rays.number()[i]];
-    Eigen::Array3f shown = sight.luminance;
+    Eigen::Array3f shown = sight.shining;
     if (scene_.glass.anyVeils()) shown *= scene_.glass.throughVeils({sight.start, sight.way, 0.0f, 1.0f});
     (*mirrorings)[sight.number].shining += shown;
   }

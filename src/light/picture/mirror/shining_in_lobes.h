@@ -55,7 +55,7 @@ class ShiningInLobes {
   struct Sight {
     std::uint32_t number;  ///< of a mirroring
     Eigen::Vector3f start, way;
-    Eigen::Array3f luminance;  ///< that the mirroring shows of it if nothing hides it, cd/m²
+    Eigen::Array3f shining;  ///< what it adds to Mirroring::shining if nothing hides it
   };
   std::vector<Sight> sights_;
 };
@@ -66,7 +66,7 @@ void ShiningInLobes::add(std::vector<Reflections::Mirroring>* mirrorings, const 
   for (std::uint32_t number = 0; number < mirrorings->size(); ++number) {
     const Reflections::Mirroring& mirroring = (*mirrorings)[number];
     const Surface& surface = tile_.surfaces[mirroring.surface];
-    if (!fillsLobe(surface) || !(mirroring.weight > 0.0f)) continue;
+    if (!fillsLobe(surface)) continue;
     for (std::uint32_t k = 0; k < mirroring.rays; ++k)
       aim(mirroring, number, k, toEye(surface, rayStart(tile_, surface.first_sample + k)));
   }

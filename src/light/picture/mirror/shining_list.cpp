@@ -10,7 +10,7 @@ namespace {
 
 bool isListed(const scene::Material& material) {
   return material.emission.value.maxCoeff() > 0.0f && material.lamp_group.empty() &&
-         material.alpha_mode == scene::AlphaMode::kOpaque;
+         material.alpha_mode == scene::AlphaMode::kOpaque && material.glass == 0.0f;  // which rays pass
 }
 
 }  // namespace
@@ -32,9 +32,12 @@ ShiningList::ShiningList(const Geometry& geometry) : geometry_(geometry) {
     }
   }
   if (all_.size() > kMost) {
-    std::stable_sort(all_.begin(), all_.end(),
-                     [](const Shining& one, const Shining& other) { return one.power > other.power; });
+    const auto isMore = [](const Shining& one, const Shining& other) {
+      return one.power != other.power ? one.power > other.power : one.triangle < other.triangle;
+    };
+    std::nth_element(all_.begin(), all_.begin() + kMost, all_.end(), isMore);
     all_.resize(kMost);
+    std::sort(all_.begin(), all_.end(), isMore);
   }
   for (std::uint32_t n = 0; n < all_.size(); ++n) number_.emplace(all_[n].triangle, n);
 }
@@ -53,6 +56,7 @@ float ShiningList::chanceOf(const Shining& one, const Eigen::AlignedBox3f& box) 
 }
 
 ShiningList::Chances::Chances(const ShiningList& list, const Eigen::AlignedBox3f& box) : list_(list) {
+  if (box.isEmpty()) return;
   sums_.reserve(list.all_.size());
   float sum = 0.0f;
   for (const Shining& one : list.all_) sums_.push_back(sum += list.chanceOf(one, box));

@@ -12,8 +12,8 @@
 
 namespace sunlit::light {
 
-/// Triangles that stand still, of opaque materials that belong to no group of lamps: the kMost that are the
-/// most powerful.
+/// Triangles that stand still, of opaque materials, not of glass, that belong to no group of lamps: the kMost
+/// that are the most powerful.
 class ShiningList {
  public:
   static constexpr std::size_t kMost = 4096;
@@ -32,7 +32,7 @@ class ShiningList {
   /// How likely which of them is looked for, by what it may give to a box.
   class Chances {
    public:
-    /// Keeps a reference to `list`.
+    /// Keeps a reference to `list`. None has any for an empty box.
     Chances(const ShiningList& list, const Eigen::AlignedBox3f& box);
     /// By three numbers in [0, 1). There is at least one that may be picked where any() says so.
     Point pick(const Eigen::Vector3f& random) const;

@@ -256,6 +256,23 @@ TEST(OneSun, IsNotThatOfPicturesThatAreNotAskedFor) {
   EXPECT_EQ(evaluated(folder, {false, false}).counts.pairs[0].resumed, 4u);
 }
 
+// Of two stamps of a pose the earlier counts, whatever the later one is.
+TEST(OneSun, OfALaterStampTakesNoPictureAway) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = optionsFor(folder);
+  options.frame_rate = 5.0;  // of images that come at 10 Hz: 1 and 2 are of pose 1
+  options.stamp_start_ns = stampOf(0);
+  options.images = KeptImages::kAll;
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; pose < 4; ++pose) {
+    evaluation.addCapture(0, captureAt(pose, pose == 2 ? kHour_s : 0.0));
+    feedPose(evaluation, pose);
+  }
+  evaluation.finish();
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/frames.csv")), "1,500.100000000,h04,h12,"));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("out/images/h04/000001.png")));
+}
+
 TEST(OneSun, IsNotAskedForWhereCapturesDoNotTell) {
   const TemporaryFolder folder;
   Evaluation evaluation(optionsFor(folder), {});
