@@ -73,15 +73,12 @@ class RenderControl(unittest.TestCase):
             self.assertEqual([image.header.stamp.to_nsec() for image in images],
                              [1000 * 10**9 + pose * 125 * 10**6 for pose in range(20)])
 
-            latest = lambda: rospy.wait_for_message("/controlled/activity", Activity, TIMEOUT_S).doing
-            deadline = time.monotonic() + TIMEOUT_S
-            while latest() != "done" and time.monotonic() < deadline:
-                time.sleep(0.05)
+            reader.wait_activity("/controlled/activity", "done")
             for name in ("start", "pause"):
                 answer = service("/controlled/" + name, Trigger)()
                 self.assertFalse(answer.success)
                 self.assertIn("all poses are rendered", answer.message)
-            self.assertEqual(latest(), "done")
+            self.assertEqual(rospy.wait_for_message("/controlled/activity", Activity, TIMEOUT_S).doing, "done")
         reader.close()
 
     def test_black_pictures_are_told_of(self):

@@ -13,7 +13,7 @@ from geometry_msgs.msg import PoseStamped, QuaternionStamped
 from nav_msgs.msg import Path
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from std_msgs.msg import UInt32
-from sunlit.msg import Capture, MoonPosition, SunPosition
+from sunlit.msg import Activity, Capture, MoonPosition, SunPosition
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
@@ -234,6 +234,13 @@ class Reader:
             reached = lambda: self.messages[topic] and self.messages[topic][-1].data >= poses
             if not self.changed.wait_for(reached, TIMEOUT_S):
                 raise AssertionError("%s: %s, never %d" % (topic, self.messages[topic][-1:], poses))
+
+    def wait_activity(self, topic, doing):
+        self._subscribe(topic, Activity)  # latched
+        with self.changed:
+            reached = lambda: self.messages[topic] and self.messages[topic][-1].doing == doing
+            if not self.changed.wait_for(reached, TIMEOUT_S):
+                raise AssertionError("%s: %s, never %s" % (topic, self.messages[topic][-1:], doing))
 
     def done(self, poses):
         self.progress.publish(UInt32(data=poses))

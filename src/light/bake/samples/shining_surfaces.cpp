@@ -6,6 +6,7 @@
 
 #include "light/geometry/cutout.h"
 #include "light/shading/reflectances.h"
+#include "sunlit/light/lamps.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/quantity/photometry.h"
 
@@ -35,7 +36,7 @@ std::vector<std::array<Eigen::Vector2f, 3>> partsOf(int across) {
 }
 
 bool shines(const scene::Material& material) {
-  return material.emission.value.maxCoeff() > 0.0f && material.lamp_group.empty();
+  return glows(material, {});  // whatever lamps burn
 }
 
 /// How much of a triangle is there, where it is cut out or blends.

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/geometry/corners.h"
+#include "sunlit/light/lamps.h"
 #include "sunlit/quantity/photometry.h"
 
 namespace sunlit::light {
 namespace {
 
 bool isListed(const scene::Material& material) {
-  return material.emission.value.maxCoeff() > 0.0f && material.lamp_group.empty() &&
-         material.alpha_mode == scene::AlphaMode::kOpaque && material.glass == 0.0f;  // which rays pass
+  return glows(material, {}) && material.alpha_mode == scene::AlphaMode::kOpaque &&
+         material.glass == 0.0f;  // which rays pass
 }
 
 }  // namespace
@@ -25,10 +27,9 @@ ShiningList::ShiningList(const Geometry& geometry) : geometry_(geometry) {
       const Eigen::Vector3f &a = geometry.positions[i], &b = geometry.positions[j],
                             &c = geometry.positions[k];
       const float area_m2 = 0.5f * (b - a).cross(c - a).norm();
-      const float longest_m = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
       if (area_m2 > 0.0f)
-        all_.push_back(
-            {t, (a + b + c) / 3.0f, area_m2, longest_m, luminance * area_m2, material.double_sided});
+        all_.push_back({t, (a + b + c) / 3.0f, area_m2, longestEdge(geometry, t), luminance * area_m2,
+                        material.double_sided});
     }
   }
   if (all_.size() > kMost) {
