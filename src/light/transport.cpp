@@ -9,14 +9,33 @@
 #include <stdexcept>
 
 #include "light/bake/gather/gather.h"
+#include "light/bake/gather/lamp_lit.h"
 #include "light/bake/gather/relight.h"
 #include "light/bake/samples/node_lights.h"
 #include "light/bake/samples/parting_walls.h"
 #include "light/bake/samples/scene_samples.h"
+#include "light/bake/samples/shining_surfaces.h"
+#include "light/lamps/lamp_sets.h"
 #include "light/patches/mirror_sky.h"
 #include "light/patches/sky_sectors.h"
 
 namespace sunlit::light {
+namespace {
+
+/// What shines by itself, what that lights brightly, and what all lamps do.
+AreaLights brightIn(const BakeScene& scene, const AreaLights& shining,
+                    std::vector<AreaLights::Piece> pieces) {
+  const std::vector<scene::Lamp>& lamps = scene.geometry.scene->lamps;
+  std::vector<LampBeam> beams;
+  for (const LampSet& set : lampSets(lamps))
+    for (const scene::Lamp& lamp : lampsOf(set, lamps)) beams.emplace_back(lamp);
+  for (const std::vector<AreaLights::Piece>& lit : {litPieces(scene, beams), litPieces(scene, shining)})
+    pieces.insert(pieces.end(), lit.begin(), lit.end());
+  return AreaLights(scene.rays, std::move(pieces));
+}
+
+}  // namespace
+
 void validate(const TransportOptions& options) {
   requireFields(options);
 }
@@ -35,7 +54,8 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   const std::vector<TriangleTraits> traits = triangleTraits(*geometry, rays);
   const RefineLimits limits{static_cast<float>(options.finest_m), static_cast<std::size_t>(options.samples)};
   const BakeScene scene{*geometry, rays, traits};
-  const ShiningSurfaces shining(*geometry, rays, traits);
+  const std::vector<AreaLights::Piece> pieces = shiningPieces(*geometry, traits);
+  const AreaLights shining(rays, pieces);
   constexpr double kLeaves = 0.2, kSampled = 0.4;
   auto data = std::make_unique<TransportData>();
   SceneSamples samples;
@@ -49,7 +69,10 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   // Side by side, since some of the sampling is work for one thread.
   tbb::parallel_invoke(
       [&] { data->leaves = leafOpenness(geometry, traits, [&](double share) { note(share, &leaves); }); },
-      [&] { samples = sampleScene(scene, shining, limits, [&](double share) { note(share, &sampled); }); });
+      [&] {
+        samples = sampleScene(scene, brightIn(scene, shining, pieces), limits,
+                              [&](double share) { note(share, &sampled); });
+      });
   const GatherOptions gather{options.rays_per_patch, options.bounces, shining,
                              [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
   samples.mesh.drop(gatherLight(scene, samples, gather, data.get()), PartingWalls(scene, samples));

@@ -216,7 +216,7 @@ class LocaliseBags(unittest.TestCase):
     def test_a_robots_bag_with_topics_and_stamps_of_its_own(self):
         theirs = self.write_foreign("theirs.bag", [0.0032, 1.0047, 2.0061])
         other = self.write_foreign("other.bag", [0.5013, 1.4988])
-        self.assertIn("no /vicon/camera of this stamp; the nearest is 0.0032 s away, see --stamp-tolerance",
+        self.assertIn("no /vicon/camera of this stamp; the one before is 0.0032 s away, the one behind 0.0068 s; each may be ",
                       self.refused("--map", theirs, "--query", other, *self.FOREIGN))
         rows, _ = self.localise("out", "--map", theirs, "--query", other, "--stamp-tolerance", "0.01", *self.FOREIGN)
         self.assertEqual([(row["map"], row["query"], row["status"]) for row in rows], [("theirs", "other", "localised")] * 2)

@@ -60,6 +60,15 @@ void requireToCountBy(const evaluate::EvaluationOptions& options, const std::str
                            topicsInWords(held));
 }
 
+void warnOfNothingIn(const std::string& bag, const std::vector<std::string>& wanted) {
+  const std::set<std::string> held = topicsIn({bag});
+  if (std::any_of(wanted.begin(), wanted.end(),
+                  [&](const std::string& topic) { return held.count(topic) != 0; }))
+    return;
+  std::fprintf(stderr, "warning: %s brings nothing: it holds none of %s; it holds: %s\n", bag.c_str(),
+               topicsInWords({wanted.begin(), wanted.end()}).c_str(), topicsInWords(held).c_str());
+}
+
 class BagSource {
  public:
   explicit BagSource(const BagEvaluationOptions& options) : max_pixels_(options.intake.max_pixels) {
@@ -81,6 +90,7 @@ class BagSource {
     }
     if (!cameras_.empty()) wanted.push_back(root + topics::kDepth);
     for (const std::string& path : options.bags) {
+      warnOfNothingIn(path, wanted);
       bags_.push_back(openBag(path));
       view_.addQuery(*bags_.back(), topicQuery(wanted));
       rosbag::View places(*bags_.back(), topicQuery({place_topic_}));

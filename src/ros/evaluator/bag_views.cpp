@@ -61,15 +61,33 @@ typename ByStamp<Value>::const_iterator nearest(const ByStamp<Value>& values, st
 /// What is farther away is not this image's, whatever the tolerance.
 constexpr std::int64_t kTellingGap_ns = 500000000;
 
+std::string secondsOf(std::int64_t ns) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g s", 1e-9 * static_cast<double>(ns));
+  return text;
+}
+
 template <typename Value>
 std::string lackOf(const std::string& topic, const ByStamp<Value>& values, std::int64_t stamp_ns) {
   const std::string lack = "no " + topic + " of this stamp";
   const auto found = nearest(values, stamp_ns);
   if (found == values.end() || std::abs(found->first - stamp_ns) > kTellingGap_ns) return lack;
-  char away[64];
-  std::snprintf(away, sizeof away, "; the nearest is %.4g s away, see --stamp-tolerance",
-                1e-9 * std::abs(static_cast<double>(found->first - stamp_ns)));
-  return lack + away;
+  return lack + "; the nearest is " + secondsOf(std::abs(found->first - stamp_ns)) +
+         " away, see --stamp-tolerance";
+}
+
+/// Of an image that is to have its pose from between two.
+std::string lackOfPoses(const std::string& topic, const ByStamp<geometry_msgs::Pose>& poses,
+                        std::int64_t stamp_ns, double tolerance_s) {
+  const auto after = poses.lower_bound(stamp_ns);
+  std::string lack = "no " + topic + " of this stamp; the one before ";
+  lack +=
+      after == poses.begin() ? "is missing" : "is " + secondsOf(stamp_ns - std::prev(after)->first) + " away";
+  lack += after == poses.end() ? ", and there is none behind"
+                               : ", the one behind " + secondsOf(after->first - stamp_ns);
+  char most[64];
+  std::snprintf(most, sizeof most, "; each may be %.4g s away at most, see --stamp-tolerance", tolerance_s);
+  return lack + most;
 }
 
 std::int64_t toleranceOf(const ViewTopics& topics) {
@@ -234,7 +252,8 @@ Eigen::Isometry3d BagViews::poseAt(std::int64_t stamp_ns) const {
                           after->first - stamp_ns <= tolerance_ns &&
                           stamp_ns - std::prev(after)->first <= tolerance_ns;
   if (!is_between)
-    throw std::invalid_argument(lackOf(calledOr(topics_.poses, topics::kPose), poses, stamp_ns));
+    throw std::invalid_argument(
+        lackOfPoses(calledOr(topics_.poses, topics::kPose), poses, stamp_ns, topics_.stamp_tolerance_s));
   const auto stamped = [&](const auto& entry) {
     requireOnePlace(entry.first);
     const Eigen::Isometry3d pose = fromPose(entry.second);

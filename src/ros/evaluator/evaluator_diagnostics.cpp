@@ -64,6 +64,9 @@ void EvaluatorDiagnostics::tell(WallUpdater::Status& status) {
                     failures, not_evaluated);
   } else if (const std::string unheard = intake_.unheardStreams(); !unheard.empty()) {
     status.summary(Status::WARN, "nobody publishes images of " + unheard);
+  } else if (const std::string truth = counts.awaits_truth ? intake_.unheardTruth() : ""; !truth.empty()) {
+    status.summary(Status::WARN, "nobody publishes " + truth + ", which " +
+                                     std::to_string(counts.waiting_images) + " images wait for");
   } else {
     status.summaryf(Status::OK, "%zu poses evaluated", counts.completed_poses);
   }

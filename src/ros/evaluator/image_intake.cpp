@@ -188,6 +188,17 @@ std::string ImageIntake::unheardStreams() const {
   return names;
 }
 
+std::string ImageIntake::unheardTruth() const {
+  std::vector<const ros::Subscriber*> needed = {&places_, &depth_};
+  for (const Stream& stream : streams_) needed.push_back(&stream.cameras);
+  std::string topics;
+  for (const ros::Subscriber* subscriber : needed) {
+    if (!*subscriber || subscriber->getNumPublishers() > 0) continue;
+    topics += (topics.empty() ? "" : ", ") + subscriber->getTopic();
+  }
+  return topics;
+}
+
 // Two senders at once have two counts, and of a plug-in's images nobody tells which is whose.
 void ImageIntake::countGap(std::size_t stream, const std_msgs::Header& header, const std::string& sender) {
   const SequenceGaps::Gap gap = streams_[stream].gaps[sender].add(header.seq, nanosecondsOf(header.stamp));

@@ -44,9 +44,11 @@ float passedOnBetween(const SceneSamples& samples) {
     seen.scale_up = seen.scale_down = 1.0f;
   }
   // Rays that leave a wall backwards count nothing.
-  std::vector<Eigen::Array3f> direct(samples.receivers.size(), Eigen::Array3f::Zero());
-  for (std::uint32_t i = 0; i < kWall; ++i) direct[i].setOnes();
-  const Arrived has = exchange.passedOn(direct, Exchange::kAllBounces)[0];
+  StraightLight lamps(samples.receivers.size());
+  for (std::uint32_t i = 0; i < kWall; ++i) lamps.direct[i].setOnes();
+  const std::vector<Arrived> nothing(samples.receivers.size());
+  const Arrived has = exchange.passedOn(exchange.receivedOf(exchange.sentOf(lamps, nothing), nothing),
+                                        Exchange::kAllBounces)[0];
   return has.above[1] + has.below[1];
 }
 

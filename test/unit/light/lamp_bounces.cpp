@@ -5,87 +5,12 @@
 
 #include <numeric>
 
+#include "night_scene.h"
 #include "light/lamps/lamp_sets.h"
-#include "light/shading/shading.h"
-#include "paper_scene.h"
-#include "sunlit/light/transport.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
-
-const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
-const LampOptions kOn = [] {
-  LampOptions options;
-  options.mode = LampMode::kOn;
-  return options;
-}();
-
-scene::Lamp lampAt(const Eigen::Vector3f& position, float cd, const std::string& group = "lamps") {
-  scene::Lamp lamp;
-  lamp.name = "lamp";
-  lamp.group = group;
-  lamp.position = position;
-  lamp.intensity = LinearRgb(cd, cd, cd);
-  return lamp;
-}
-
-World baked(scene::Scene scene, const TransportOptions& options = {}) {
-  World world = worldOf(std::move(scene));
-  world.transport = Transport::bake(world.geometry, options);
-  return world;
-}
-
-Surfaces onTriangles(const World& world, const std::vector<Looked>& points) {
-  Surfaces surfaces = rowOf(points, *world.geometry->scene);
-  for (Tile& tile : surfaces.tiles)
-    for (Surface& surface : tile.surfaces)
-      surface.triangle = triangleAt(*world.geometry, surface.position, surface.geometric_normal);
-  return surfaces;
-}
-
-/// Illuminance by surfaces, lx.
-std::vector<double> illuminances(const World& world, const std::vector<Looked>& points,
-                                 const LampOptions& options = kOn) {
-  const Illumination light = illumination(world, uniformDay(0.0f), options);
-  std::vector<double> values;
-  for (const TileOutlooks& tile : outlooksOf(onTriangles(world, points), world))
-    for (const Outlook& outlook : tile.surfaces)
-      values.push_back(static_cast<double>(irradianceAt(outlook.light, *light.nodes)[1]));
-  return values;
-}
-
-double illuminance(const World& world, const Eigen::Vector3f& position, const Eigen::Vector3f& normal = kUp,
-                   const LampOptions& options = kOn) {
-  return illuminances(world, {{position, normal, normal}}, options)[0];
-}
-
-std::vector<double> pictured(const World& world, const std::vector<Looked>& points) {
-  return rowValues(onTriangles(world, points), world, illumination(world, uniformDay(0.0f), kOn));
-}
-
-std::vector<double> tracedWithLamps(const World& world, const std::vector<Looked>& points, int samples) {
-  ReferenceOptions options;
-  options.samples_per_pixel = samples;
-  options.bounces = 64;
-  options.lamps = burning(world.geometry->scene->lamps, kOn);
-  const Surfaces surfaces = rowOf(points, *world.geometry->scene);
-  return rowValues(traceReference(surfaces, world, {uniformDay(0.0f)}, options)[0].luminance);
-}
-
-/// Each within `worst`, all within 5 % on average and 3 % of bias.
-void expectAlike(const std::vector<Looked>& points, const std::vector<double>& fast,
-                 const std::vector<double>& slow, double worst) {
-  double mean = 0.0, bias = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double error = fast[i] / slow[i] - 1.0;
-    mean += std::abs(error) / static_cast<double>(points.size());
-    bias += error / static_cast<double>(points.size());
-    EXPECT_NEAR(error, 0.0, worst) << points[i].position.transpose();
-  }
-  EXPECT_LT(mean, 0.05);
-  EXPECT_LT(std::abs(bias), 0.03);
-}
 
 TEST(LampBounces, FillAClosedRoomByItsAlbedo) {
   for (const float base : {0.5f, 0.8f}) {
@@ -146,7 +71,8 @@ TEST(LampBounces, OfANightLampAreThereWhateverShinesBehindTheWall) {
   const std::vector<double> beside = illuminances(baked(scene), places);
   for (std::size_t i = 0; i < places.size(); ++i) {
     EXPECT_GT(alone[i], 0.0);
-    EXPECT_NEAR(beside[i], alone[i], 1e-3 * alone[i]);
+    // What is looked for is known as well as all that shines allows, hidden or not.
+    EXPECT_NEAR(beside[i], alone[i], 1e-2 * alone[i]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "light/bake/gather/room_mirrors.h"
+#include "light/bake/samples/looked_for.h"
 #include "light/shading/mirror_lobe.h"
 #include "light/shading/polished_floor.h"
 #include "light/shading/reflectances.h"
@@ -32,11 +33,8 @@ float relativeChange(const Eigen::Array3f& before, const Eigen::Array3f& after) 
   const float most = after.maxCoeff();
   return most > 0.0f ? (after - before).abs().maxCoeff() / most : 0.0f;
 }
-float relativeChange(const PassedOnSums& before, const PassedOnSums& after) {
-  return std::max(relativeChange(before.color(), after.color()), relativeChange(before.glow(), after.glow()));
-}
 float relativeChange(const Arrived& before, const Arrived& after) {
-  return relativeChange(before.above + before.below, after.above + after.below);
+  return relativeChange(before.all(), after.all());
 }
 
 /// Blocks of kSamplesOfTask samples, neighbours mostly, and which of them still change as light goes on from
@@ -98,14 +96,14 @@ void setEven(float sum, std::size_t sample, Coefficients* coefficients) {
   coefficients->set(sample, row.data());
 }
 
-void brighten(const PartSums& traced, const PartSums& all, std::size_t sample, PassedOn* part) {
-  const float before = luminanceOf(traced.color), after = luminanceOf(all.color);
+void brighten(const Eigen::Array3f& traced, const Eigen::Array3f& all, std::size_t sample, PassedOn* part) {
+  const float before = luminanceOf(traced), after = luminanceOf(all);
   if (before > 0.0f) {
     part->coefficients.scales[sample] *= after / before;
   } else if (after > 0.0f) {
     setEven(after, sample, &part->coefficients);
   }
-  store(all, sample, part);
+  storeTint(all, sample, part);
 }
 
 }  // namespace
@@ -113,7 +111,6 @@ void brighten(const PartSums& traced, const PartSums& all, std::size_t sample, P
 Exchange::Exchange(const SceneSamples& samples, const SkyPatches& patches, const BakedRooms& rooms)
     : seen(samples.receivers.size()),
       mirrored_sums(samples.receivers.size(), 0.0f),
-      shining(samples.receivers.size()),
       samples_(samples),
       patches_(patches),
       rooms_(rooms),
@@ -187,29 +184,20 @@ Sending Exchange::sendingToRooms(std::size_t sample) const {
   return sends;
 }
 
-SentSums Exchange::sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample) const {
-  const Eigen::Array3f shining_there = shining[sample].above + shining[sample].below;
-  SentSums sent{sends.direct * has.direct[sample] + sends.bounced * has.passed_on[sample].color(),
-                sends.bounced * has.passed_on[sample].glow() + (sends.lamps - sends.bounced) * shining_there};
-  if (sends.other != LightMesh::kNone) {
-    const PassedOnSums& behind = has.passed_on[sends.other];
-    sent.color += sends.through * (has.direct[sends.other] + behind.color());
-    sent.glow += sends.through * behind.glow();
-  }
+Eigen::Array3f Exchange::sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample) {
+  Eigen::Array3f sent = sends.direct * has.direct[sample] + sends.bounced * has.passed_on[sample].all();
+  if (sends.other != LightMesh::kNone)
+    sent += sends.through * (has.direct[sends.other] + has.passed_on[sends.other].all());
   return sent;
 }
 
-PassedOnSums Exchange::received(const std::vector<SentSums>& sent, std::size_t sample) const {
-  PassedOnSums sums;
-  sums.below.color.setConstant(mirrored_sums[sample]);
-  sums.above.glow = shining[sample].above;
-  sums.below.glow = shining[sample].below;
+Arrived Exchange::received(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const {
+  Arrived sum;
+  sum.below.setConstant(mirrored_sums[sample]);
   visitSeen(sample, all, [&](const SampleSeen& other, bool up) {
-    PartSums& part = up ? sums.above : sums.below;
-    part.color += other.weight * sent[other.sample].color;
-    part.glow += other.weight * sent[other.sample].glow;
+    (up ? sum.above : sum.below) += other.weight * sent[other.sample];
   });
-  return sums;
+  return sum;
 }
 
 Arrived Exchange::receivedOf(const Sent& sent, std::size_t sample) const {
@@ -236,23 +224,63 @@ std::vector<Sending> Exchange::sendings() const {
   return all;
 }
 
-std::vector<Arrived> Exchange::passedOn(const std::vector<Eigen::Array3f>& direct, int most) const {
-  std::vector<Arrived> has(seen.size()), next(seen.size());
-  Sent sent{std::vector<Eigen::Array3f>(sentCount()), std::vector<std::uint8_t>(sentCount())};
+Exchange::LookedFor Exchange::sentOf(const StraightLight& lamps, const std::vector<Arrived>& has) const {
+  LookedFor sent(sentCount());
+  // Of what a surface passes on besides, the same share as of the lamps' own light.
+  const auto looked = [&](std::uint32_t sample) -> Eigen::Array3f {
+    const float direct = lamps.direct[sample].sum();
+    const float share = direct > 0.0f ? lamps.looked_for[sample].sum() / direct : 0.0f;
+    return share * has[sample].all();
+  };
+  tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) {
+    const Sending sends = sendingOf(i);
+    const std::uint32_t sender = senderOf(i);
+    Eigen::Array3f light = sends.lamps * lamps.direct[sender] + sends.bounced * has[sender].all();
+    sent.part[i] = sends.lamps * lamps.looked_for[sender] + sends.bounced * looked(sender);
+    sent.lamp_m[i] = lamps.lamp_m[sender];
+    if (sends.other != LightMesh::kNone) {
+      light += sends.through * (lamps.direct[sends.other] + has[sends.other].all());
+      const Eigen::Array3f through = sends.through * (lamps.looked_for[sends.other] + looked(sends.other));
+      if (through.sum() > sent.part[i].sum()) sent.lamp_m[i] = lamps.lamp_m[sends.other];
+      sent.part[i] += through;
+    }
+    sent.sent.set(i, light);
+  });
+  return sent;
+}
+
+std::vector<Arrived> Exchange::receivedOf(const LookedFor& sent, std::vector<Arrived> found) const {
+  std::vector<Eigen::Vector3f> places(seen.size());
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = samples_.receivers[i].middle();
+  const auto lit = [&](std::uint32_t other) { return sent.sent.any[other] != 0; };
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
+    visitSeen(i, lit, [&](const SampleSeen& other, bool up) {
+      const float from_m = (places[senderOf(other.sample)] - places[i]).norm();
+      const float looked = lookedForFrom(sent.lamp_m[other.sample], from_m);
+      const Eigen::Array3f met = sent.sent.light[other.sample] - looked * sent.part[other.sample];
+      (up ? found[i].above : found[i].below) += other.weight * met.max(0.0f);
+    });
+  });
+  return found;
+}
+
+std::vector<Arrived> Exchange::passedOn(const std::vector<Arrived>& first, int most) const {
+  std::vector<Arrived> has = first, next(seen.size());
+  Sent sent(sentCount());
   const std::vector<Sending> sends_of = sendings();
-  const auto bounced = [&](std::size_t i) -> Eigen::Array3f { return has[i].above + has[i].below; };
   ChangingBlocks changing(seen.size(), [&](std::size_t i, const auto& see) { visitSenders(i, see); });
-  for (int bounce = 0; bounce < most && changing.any(); ++bounce) {
+  for (int bounce = 1; bounce < most && changing.any(); ++bounce) {
     tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) {
       const Sending& sends = sends_of[i];
-      const std::uint32_t sender = senderOf(i);
-      Eigen::Array3f light = sends.lamps * direct[sender] + sends.bounced * bounced(sender);
-      if (sends.other != LightMesh::kNone)
-        light += sends.through * (direct[sends.other] + bounced(sends.other));
-      sent.light[i] = light;
-      sent.any[i] = light.isZero(0.0f) ? 0 : 1;
+      Eigen::Array3f light = sends.bounced * has[senderOf(i)].all();
+      if (sends.other != LightMesh::kNone) light += sends.through * has[sends.other].all();
+      sent.set(i, light);
     });
-    changing.receive([&](std::size_t i) { return receivedOf(sent, i); }, &has, &next);
+    const auto receive = [&](std::size_t i) {
+      const Arrived further = receivedOf(sent, i);
+      return Arrived{first[i].above + further.above, first[i].below + further.below};
+    };
+    changing.receive(receive, &has, &next);
   }
   return has;
 }
@@ -260,9 +288,9 @@ std::vector<Arrived> Exchange::passedOn(const std::vector<Eigen::Array3f>& direc
 void Exchange::addLaterBounces(TransportData* data) const {
   const std::size_t count = seen.size();
   SumsOfAll has = sumsOf(*data);
-  const std::vector<PassedOnSums> traced = has.passed_on;
-  std::vector<PassedOnSums> next(count);
-  std::vector<SentSums> sent(sentCount());
+  const std::vector<Arrived> traced = has.passed_on;
+  std::vector<Arrived> next(count);
+  std::vector<Eigen::Array3f> sent(sentCount());
   const std::vector<Sending> sends_of = sendings();
   ChangingBlocks changing(count, [&](std::size_t i, const auto& see) { visitSenders(i, see); });
   for (int bounce = 0; bounce < kAllBounces && changing.any(); ++bounce) {

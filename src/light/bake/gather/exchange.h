@@ -62,7 +62,6 @@ class Exchange {
 
   std::vector<SampleHits> seen;      ///< of each sample
   std::vector<float> mirrored_sums;  ///< sky by way of the ground as a mirror, without colour, lx
-  std::vector<Arrived> shining;      ///< straight from surfaces that shine by themselves
 
   RaySeen ray(std::size_t sample, std::size_t hit) const {
     const SampleHits& view = seen[sample];
@@ -108,14 +107,36 @@ class Exchange {
   Sending sendingOf(std::size_t sent) const {
     return sent < seen.size() ? sending(sent) : sendingToRooms(senderOf(sent));
   }
-  /// The sums of what a sample has, and of what it has from the other side.
-  SentSums sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample) const;
+  /// Of what a sample has by the sky, and of what it has from the other side, by the sums over all patches:
+  /// luminance × π.
+  static Eigen::Array3f sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample);
   /// What a sample gets of all that is sent, and of the ground's mirror.
-  PassedOnSums received(const std::vector<SentSums>& sent, std::size_t sample) const;
+  Arrived received(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const;
 
-  /// What each sample has by surfaces that pass on `direct`, illuminance straight from lamps, lx: by `most`
+  /// Light that goes from samples to others: luminance × π.
+  struct Sent {
+    explicit Sent(std::size_t count) : light(count), any(count) {}
+    void set(std::size_t number, const Eigen::Array3f& value) {
+      light[number] = value;
+      any[number] = value.isZero(0.0f) ? 0 : 1;
+    }
+    std::vector<Eigen::Array3f> light;
+    std::vector<std::uint8_t> any;  ///< whether it is not 0: most are dark, and this fits a core's cache
+  };
+  /// Such light, of which others look for a part.
+  struct LookedFor {
+    explicit LookedFor(std::size_t count) : sent(count), part(count), lamp_m(count) {}
+    Sent sent;
+    std::vector<Eigen::Array3f> part;  ///< of `sent`, as lookedFor() tells
+    std::vector<float> lamp_m;         ///< for lookedForFrom()
+  };
+  /// What samples send of light that is straight from lamps, and of what they have besides. Parallel.
+  LookedFor sentOf(const StraightLight& lamps, const std::vector<Arrived>& has) const;
+  /// What each sample has of that: what rays meet, and what it `found` where it looked. Parallel.
+  std::vector<Arrived> receivedOf(const LookedFor& sent, std::vector<Arrived> found) const;
+  /// What each sample has by surfaces that pass on light, of which it has `first` by one bounce: by `most`
   /// bounces, or until they add next to nothing. Parallel.
-  std::vector<Arrived> passedOn(const std::vector<Eigen::Array3f>& direct, int most) const;
+  std::vector<Arrived> passedOn(const std::vector<Arrived>& first, int most) const;
 
   /// Bounces of white walls, that pass on 0.98, until next to nothing is left.
   static constexpr int kAllBounces = 200;
@@ -127,11 +148,6 @@ class Exchange {
  private:
   static_assert(SkyPatches::kAbove <= 256 && SkyPatches::kDown <= 256, "a direction fits above a sample");
 
-  /// Luminance × π.
-  struct Sent {
-    std::vector<Eigen::Array3f> light;
-    std::vector<std::uint8_t> any;  ///< whether it is not 0: most are dark, and this fits a core's cache
-  };
   Arrived receivedOf(const Sent& sent, std::size_t sample) const;
   /// Calls see(number) with all samples whose light a sample gets.
   template <typename See>

@@ -78,7 +78,6 @@ class Gatherer {
       rooms.look(data);
       exchange_.useRooms();
       lookIntoGround(*data);
-      lookAtWhatShines();
       if (all) {
         rooms.finish(&data->rooms);
         lookIntoGroundOfRooms(data);
@@ -87,7 +86,10 @@ class Gatherer {
     for (int bounce = 0; bounce < options_.bounces; ++bounce)
       passOn(data, (1.0 - direct_share) / options_.bounces);
     if (all) exchange_.addLaterBounces(data);
-    data->lamps = bakeLamps(scene_, samples_, exchange_, all ? Exchange::kAllBounces : options_.bounces);
+    const int bounces = all ? Exchange::kAllBounces : options_.bounces;
+    const LampBounces lamps(scene_, samples_, exchange_, bounces);
+    if (bounces > 0 && options_.shining.any()) lamps.bakeShining(options_.shining, data);
+    data->lamps = lamps.bake();
     return inside;
   }
 
@@ -199,14 +201,6 @@ class Gatherer {
     }
   }
 
-  void lookAtWhatShines() {
-    if (!options_.shining.any()) return;
-    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
-      const ShiningSurfaces::Light light = options_.shining.at(samples_.receivers[i], i);
-      exchange_.shining[i] = {light.above, light.below};
-    });
-  }
-
   /// The sky that each sample sees mirrored by the ground.
   void lookIntoGround(const TransportData& data) {
     const GroundMirror& mirror = GroundMirror::get();
@@ -260,12 +254,12 @@ class Gatherer {
     Coefficients sent;  // luminance × π
     const std::size_t all = exchange_.sentCount();
     sent.resize(all);
-    std::vector<SentSums> others(all);
+    std::vector<Eigen::Array3f> others(all);
     const SumsOfAll has = sumsOf(*data);
     tbb::parallel_for(std::size_t{0}, all, [&](std::size_t i) {
       const Sending sends = exchange_.sendingOf(i);
       const std::uint32_t sender = exchange_.senderOf(i);
-      others[i] = exchange_.sentBy(sends, has, sender);
+      others[i] = Exchange::sentBy(sends, has, sender);
       sent.set(i, sentRow(*data, sends, sender).data());
     });
     step(0.2 * share);
@@ -297,18 +291,18 @@ class Gatherer {
     return row;
   }
 
-  void receive(const Coefficients& sent, const std::vector<SentSums>& others, std::size_t i,
+  void receive(const Coefficients& sent, const std::vector<Eigen::Array3f>& others, std::size_t i,
                TransportData* data) const {
     Row above{}, below{};
     addTimes(mirrored_.scales[i], mirrored_.row(i), below.data());
     exchange_.visitSeen(i, Exchange::all, [&](const SampleSeen& seen, bool up) {
       addTimes(seen.weight * sent.scales[seen.sample], sent.row(seen.sample), (up ? above : below).data());
     });
-    const PassedOnSums sums = exchange_.received(others, i);
+    const Arrived sums = exchange_.received(others, i);
     data->above.coefficients.set(i, above.data());
     data->below.coefficients.set(i, below.data());
-    store(sums.above, i, &data->above);
-    store(sums.below, i, &data->below);
+    storeTint(sums.above, i, &data->above);
+    storeTint(sums.below, i, &data->below);
   }
 
   const BakeScene& scene_;

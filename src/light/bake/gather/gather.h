@@ -14,7 +14,7 @@ using GatherProgress = std::function<void(double)>;
 struct GatherOptions {
   int rays_per_patch = 3;
   int bounces = 3;
-  const ShiningSurfaces& shining;
+  const AreaLights& shining;  ///< what shines by itself
   GatherProgress progress;
 };
 

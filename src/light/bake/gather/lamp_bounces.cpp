@@ -1,9 +1,17 @@
 #include "light/bake/gather/lamp_bounces.h"
 
-#include <algorithm>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "light/bake/gather/lamp_lit.h"
 #include "light/bake/gather/lamps_on_samples.h"
+#include "light/bake/samples/looked_for.h"
+#include "light/bake/samples/mesh_leaves.h"
 #include "light/lamps/lamp_sets.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
@@ -33,19 +41,102 @@ void store(const std::vector<Arrived>& arrived, BakedLamps* baked) {
   baked->first.push_back(static_cast<std::uint32_t>(baked->blocks.size()));
 }
 
+void storeGlow(const Eigen::Array3f& light, std::size_t sample, PassedOn* part) {
+  part->glows[sample] = {light[0], light[1], light[2]};
+}
+
 }  // namespace
 
-BakedLamps bakeLamps(const BakeScene& scene, const SceneSamples& samples, const Exchange& exchange,
-                     int bounces) {
-  const std::vector<scene::Lamp>& lamps = scene.geometry.scene->lamps;
+/// What each sample has of these.
+std::vector<Arrived> LampBounces::lookFor(const std::vector<AreaLights::Piece>& pieces,
+                                          Looking looking) const {
+  const AreaLights lights(scene_.rays, pieces);
+  std::vector<Arrived> found(samples_.receivers.size());
+  if (!lights.any()) return found;
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+    const Receiver& receiver = samples_.receivers[i];
+    const AreaLights::Light light =
+        looking == Looking::kClosely && !receiver.coarse ? lights.at(receiver, i) : lights.about(receiver, i);
+    found[i] = {light.above, light.below};
+  });
+  return found;
+}
+
+/// What samples have of `lamps` by way of surfaces, of which `lit` are looked for. At first that is what
+/// these have straight from lamps. White walls of a room pass on as much of each other's light: who looks
+/// into it through a window or a gap looks for that, too, once it is known.
+std::vector<Arrived> LampBounces::passedOn(const StraightLight& lamps,
+                                           std::vector<AreaLights::Piece> lit) const {
+  std::vector<Arrived> has(samples_.receivers.size());
+  if (bounces_ < 1) return has;
+  const auto first = [&](Looking looking) {
+    return exchange_.receivedOf(exchange_.sentOf(lamps, has), lookFor(lit, looking));
+  };
+  if (bounces_ == 1 || lit.empty()) return exchange_.passedOn(first(Looking::kClosely), bounces_);
+  has = exchange_.passedOn(first(Looking::kAbout), bounces_ - 1);
+  addBounced(has, &lit);
+  return first(Looking::kClosely);
+}
+
+/// Adds what surfaces pass on of what they have besides.
+void LampBounces::addBounced(const std::vector<Arrived>& has, std::vector<AreaLights::Piece>* lit) const {
+  for (AreaLights::Piece& piece : *lit) {
+    const std::uint32_t root = samples_.mesh.roots[piece.triangle][piece.side];
+    if (!LightMesh::isCell(root)) continue;
+    const std::uint32_t sample = exchange_.usefulBeside(sampleOn(samples_, root, piece.within));
+    const Sending sends = exchange_.sending(sample);
+    Eigen::Array3f light = sends.bounced * has[sample].all();
+    if (sends.other != LightMesh::kNone) light += sends.through * has[sends.other].all();
+    piece.luminance += piece.looked / kPiFloat * light;
+  }
+}
+
+BakedLamps LampBounces::bake() const {
+  const std::vector<scene::Lamp>& lamps = scene_.geometry.scene->lamps;
   BakedLamps baked;
   baked.first.push_back(0);
   for (const LampSet& set : lampSets(lamps)) {
     const std::vector<scene::Lamp> members = lampsOf(set, lamps);
     const std::vector<LampBeam> beams(members.begin(), members.end());
-    store(exchange.passedOn(lampsOnSamples(scene, samples, beams), bounces), &baked);
+    store(passedOn(lampsOnSamples(scene_, samples_, beams), litPieces(scene_, beams)), &baked);
   }
   return baked;
+}
+
+/// Of each sample, whether all surfaces that have its light are such as maySendShine().
+std::vector<bool> LampBounces::sending() const {
+  std::vector<bool> sending(samples_.receivers.size(), true);
+  for (std::uint32_t t = 0; t < samples_.mesh.roots.size(); ++t) {
+    if (maySendShine(scene_, t)) continue;
+    for (const std::uint32_t root : samples_.mesh.roots[t]) {
+      if (!LightMesh::isCell(root)) continue;
+      visitLeaves(samples_.mesh, root, Eigen::Matrix3f::Identity(),
+                  [&](const LightMesh::Cell& cell, const Eigen::Matrix3f&) {
+                    for (const std::uint32_t node : cell.corner)
+                      sending[samples_.nearest_sample[node]] = false;
+                  });
+    }
+  }
+  return sending;
+}
+
+void LampBounces::bakeShining(const AreaLights& shining, TransportData* data) const {
+  const std::size_t count = samples_.receivers.size();
+  const std::vector<bool> sends = sending();
+  std::vector<Arrived> straight(count);
+  StraightLight lit(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const AreaLights::Light light = shining.at(samples_.receivers[i], i);
+    straight[i] = {light.above, light.below};
+    lit.direct[i] = straight[i].all();
+    lit.lamp_m[i] = light.distance_m;
+    if (sends[i]) lit.looked_for[i] = lookedFor(light.distance_m, kFarthestByShining_m) * lit.direct[i];
+  });
+  const std::vector<Arrived> bounced = passedOn(lit, litPieces(scene_, shining));
+  for (std::size_t i = 0; i < count; ++i) {
+    storeGlow(straight[i].above + bounced[i].above, i, &data->above);
+    storeGlow(straight[i].below + bounced[i].below, i, &data->below);
+  }
 }
 
 void addLamps(const BakedLamps& lamps, std::size_t set, float share, std::vector<BakedLamps::Light>* light) {

@@ -1,4 +1,4 @@
-/// Bakes what standing lamps give by way of surfaces.
+/// Bakes what standing lamps, and surfaces that shine, give by way of surfaces.
 #pragma once
 
 #include "light/bake/gather/exchange.h"
@@ -7,10 +7,30 @@
 
 namespace sunlit::light {
 
-/// Of each of the scene's lampSets(), by at most `bounces` from surface to surface. Parallel; the same bits
-/// for any number of threads.
-BakedLamps bakeLamps(const BakeScene& scene, const SceneSamples& samples, const Exchange& exchange,
-                     int bounces);
+class LampBounces {
+ public:
+  /// By at most `bounces` from surface to surface. Keeps references.
+  LampBounces(const BakeScene& scene, const SceneSamples& samples, const Exchange& exchange, int bounces)
+      : scene_(scene), samples_(samples), exchange_(exchange), bounces_(bounces) {}
+
+  /// Of each of the scene's lampSets(). Parallel; the same bits for any number of threads.
+  BakedLamps bake() const;
+
+  /// Sets PassedOn::glows of both parts: of what shines, straight and by way of surfaces. Likewise.
+  void bakeShining(const AreaLights& shining, TransportData* data) const;
+
+ private:
+  std::vector<Arrived> passedOn(const StraightLight& lamps, std::vector<AreaLights::Piece> lit) const;
+  enum class Looking { kAbout, kClosely };
+  std::vector<Arrived> lookFor(const std::vector<AreaLights::Piece>& pieces, Looking looking) const;
+  void addBounced(const std::vector<Arrived>& has, std::vector<AreaLights::Piece>* lit) const;
+  std::vector<bool> sending() const;
+
+  const BakeScene& scene_;
+  const SceneSamples& samples_;
+  const Exchange& exchange_;
+  int bounces_;
+};
 
 /// Adds `share` of the light of a set to what samples have: of BakedLamps::Light in lx, one a sample.
 void addLamps(const BakedLamps& lamps, std::size_t set, float share, std::vector<BakedLamps::Light>* light);

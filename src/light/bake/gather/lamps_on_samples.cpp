@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
+#include "light/bake/gather/lamp_lit.h"
+#include "light/bake/gather/lamp_sight.h"
+#include "light/bake/samples/looked_for.h"
 #include "light/bake/samples/mesh_leaves.h"
-#include "sunlit/light/surfaces.h"
 
 namespace sunlit::light {
 namespace {
@@ -61,10 +64,30 @@ void visitPart(std::size_t k, int across, const Visit& visit) {
   }
 }
 
+/// Light of some places, lx m².
+struct Sum {
+  Eigen::Array3f direct = Eigen::Array3f::Zero(), looked_for = Eigen::Array3f::Zero();
+  float lamp_m = 0.0f;  ///< times the sum of looked_for
+
+  void add(const Eigen::Array3f& light, float lamp, bool may_send) {
+    direct += light;
+    if (!may_send) return;
+    const Eigen::Array3f looked = lookedFor(lamp) * light;
+    looked_for += looked;
+    lamp_m += looked.sum() * lamp;
+  }
+  Sum& operator+=(const Sum& other) {
+    direct += other.direct;
+    looked_for += other.looked_for;
+    lamp_m += other.lamp_m;
+    return *this;
+  }
+};
+
 /// What a triangle adds to a sample.
 struct Arrival {
   std::uint32_t sample;
-  Eigen::Array3f light;  ///< lx m²
+  Sum light;
 };
 
 class LampsOnTriangles {
@@ -86,7 +109,7 @@ class LampsOnTriangles {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = {0.0f, static_cast<std::uint32_t>(i)};
     choose(box, all_, &of_triangle_);
     if (of_triangle_.empty()) return;
-    triangle_ = triangle;
+    may_send_ = maySendLampLight(scene_, triangle);
     whole_m2_ = 0.5f * (at_.col(1) - at_.col(0)).cross(at_.col(2) - at_.col(0)).norm();
     for (int side = 0; side < 2; ++side) {
       const std::uint32_t root = roots[static_cast<std::size_t>(side)];
@@ -128,8 +151,7 @@ class LampsOnTriangles {
     choose(box, of_triangle_, &of_leaf_);
     if (of_leaf_.empty()) return;
     const float part_m2 = whole_m2_ * std::abs(within.determinant()) / 3.0f;
-    std::array<Eigen::Array3f, 3> sums;
-    sums.fill(Eigen::Array3f::Zero());
+    std::array<Sum, 3> sums;
     float left = 0.0f, found = 0.0f;  // lx: of lamps to come, at most; where least has arrived
     for (const AtMost& one : of_leaf_) left += one.first;
     for (const auto& [high, lamp] : of_leaf_) {
@@ -151,10 +173,12 @@ class LampsOnTriangles {
         ends_.push_back(sights_.size());
       }
       cast(lamps_[lamp].castsShadows(), &sums);
-      found = std::min({sums[0].maxCoeff(), sums[1].maxCoeff(), sums[2].maxCoeff()}) / part_m2;
+      found = std::min({sums[0].direct.maxCoeff(), sums[1].direct.maxCoeff(), sums[2].direct.maxCoeff()}) /
+              part_m2;
     }
     for (std::size_t k = 0; k < 3; ++k)
-      if (sums[k].maxCoeff() > 0.0f) arrivals->push_back({samples_.nearest_sample[cell.corner[k]], sums[k]});
+      if (sums[k].direct.maxCoeff() > 0.0f)
+        arrivals->push_back({samples_.nearest_sample[cell.corner[k]], sums[k]});
   }
 
   struct Aim {
@@ -166,31 +190,26 @@ class LampsOnTriangles {
   void aim(const Aim& aim) {
     const LampBeam& lamp = lamps_[aim.lamp];
     const Eigen::Vector3f point = at_ * aim.within;
-    const Eigen::Vector3f way = lamp.position() - point;
-    const float distance_m = way.norm();
-    const bool before = face_.dot(way) > 0.0f;
-    if (!before && !(aim.through > 0.0f)) return;
-    Eigen::Vector3f normal = normals_ * aim.within;
-    if (normal.dot(face_) < 0.0f) normal = -normal;
-    if (!(normal.squaredNorm() > 1e-6f)) normal = face_;
-    const float cosine = normal.normalized().dot(way) / std::max(distance_m, 1e-6f);
-    const float counts = countedCosine(cosine, aim.through);
-    if (!(counts > 0.0f)) return;
-    const float clearance_m = rayClearance_m(point, distance_m);
-    const float reach = 1.0f - (lamp.spared_m() + clearance_m) / std::max(distance_m, 1e-6f);
-    const float off = before ? clearance_m : -clearance_m;
-    sights_.push_back({point + off * face_, way, std::max(reach, 0.0f)});
-    light_.push_back(counts * lamp.at(point));
+    const std::optional<LampSight> sight =
+        lampSight(lamp, {point, face_, normals_ * aim.within, aim.through});
+    if (!sight) return;
+    const float lamp_m = std::max((lamp.position() - point).norm(), 1e-3f);
+    sights_.push_back(sight->sight);
+    light_.push_back({sight->light, lamp_m});
   }
 
+  struct Light {
+    Eigen::Array3f light;  ///< lx
+    float lamp_m;
+  };
   /// Casts the rays that were aimed, and adds what arrives.
-  void cast(bool shadows, std::array<Eigen::Array3f, 3>* sums) {
+  void cast(bool shadows, std::array<Sum, 3>* sums) {
     hidden_.assign(sights_.size(), 0);
     if (shadows) scene_.rays.hide(sights_, &hidden_);
     std::size_t corner = 0;
     for (std::size_t i = 0; i < sights_.size(); ++i) {
       while (i >= ends_[corner]) ++corner;
-      if (!hidden_[i]) (*sums)[corner] += weights_[corner] * light_[i];
+      if (!hidden_[i]) (*sums)[corner].add(weights_[corner] * light_[i].light, light_[i].lamp_m, may_send_);
     }
     sights_.clear();
     light_.clear();
@@ -201,13 +220,13 @@ class LampsOnTriangles {
   const BakeScene& scene_;
   const SceneSamples& samples_;
   const std::vector<LampBeam>& lamps_;
-  std::uint32_t triangle_ = 0;
   Eigen::Matrix3f at_, normals_;  ///< of the triangle's corners
   Eigen::Vector3f face_;          ///< of the side that is lit
   float whole_m2_ = 0.0f;
+  bool may_send_ = false;  ///< see maySendLampLight()
   std::vector<AtMost> all_, of_triangle_, of_leaf_;
   std::vector<BakeSight> sights_;
-  std::vector<Eigen::Array3f> light_;  ///< lx, of each sight if nothing hides the lamp
+  std::vector<Light> light_;  ///< of each sight if nothing hides the lamp
   std::vector<std::uint8_t> hidden_;
   std::vector<float> weights_;     ///< of each corner's points
   std::vector<std::size_t> ends_;  ///< of each corner's rays
@@ -215,8 +234,8 @@ class LampsOnTriangles {
 
 }  // namespace
 
-std::vector<Eigen::Array3f> lampsOnSamples(const BakeScene& scene, const SceneSamples& samples,
-                                           const std::vector<LampBeam>& lamps) {
+StraightLight lampsOnSamples(const BakeScene& scene, const SceneSamples& samples,
+                             const std::vector<LampBeam>& lamps) {
   constexpr std::size_t kBlock = 512;  // triangles, of one task
   const std::size_t count = samples.mesh.roots.size();
   std::vector<std::vector<Arrival>> arrivals((count + kBlock - 1) / kBlock);
@@ -225,12 +244,18 @@ std::vector<Eigen::Array3f> lampsOnSamples(const BakeScene& scene, const SceneSa
     for (std::size_t t = block * kBlock; t < std::min(count, (block + 1) * kBlock); ++t)
       work.light(static_cast<std::uint32_t>(t), &arrivals[block]);
   });
-  std::vector<Eigen::Array3f> sums(samples.receivers.size(), Eigen::Array3f::Zero());
+  std::vector<Sum> sums(samples.receivers.size());
   for (const std::vector<Arrival>& block : arrivals)
     for (const Arrival& arrival : block) sums[arrival.sample] += arrival.light;
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    if (samples.areas_m2[i] > 0.0f) sums[i] /= samples.areas_m2[i];
-  return sums;
+  StraightLight result(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const float area_m2 = samples.areas_m2[i] > 0.0f ? samples.areas_m2[i] : 1.0f;
+    result.direct[i] = sums[i].direct / area_m2;
+    result.looked_for[i] = sums[i].looked_for / area_m2;
+    const float weight = sums[i].looked_for.sum();
+    if (weight > 0.0f) result.lamp_m[i] = sums[i].lamp_m / weight;
+  }
+  return result;
 }
 
 }  // namespace sunlit::light

@@ -17,34 +17,32 @@ struct Sending {
   std::uint32_t other;  ///< the sample on the other side, or LightMesh::kNone
 };
 
-/// By the sum over the patches of the sky: what a sample sends, as luminance × π.
-struct SentSums {
-  Eigen::Array3f color;  ///< of light of the sky
-  Eigen::Array3f glow;   ///< of what shines by itself, that it reflects
-};
-
-/// Likewise, light that a sample has from the surfaces of one part, as illuminance.
-struct PartSums {
-  Eigen::Array3f color = Eigen::Array3f::Zero(), glow = Eigen::Array3f::Zero();
-};
-struct PassedOnSums {
-  PartSums above, below;
-  Eigen::Array3f color() const { return above.color + below.color; }
-  Eigen::Array3f glow() const { return above.glow + below.glow; }
-};
 /// Illuminance by surfaces, lx.
 struct Arrived {
   Eigen::Array3f above = Eigen::Array3f::Zero(), below = Eigen::Array3f::Zero();
+  Eigen::Array3f all() const { return above + below; }
 };
 
-/// Of every sample.
+/// What samples have straight from lamps, or from what shines by itself.
+struct StraightLight {
+  explicit StraightLight(std::size_t samples)
+      : direct(samples, Eigen::Array3f::Zero()),
+        looked_for(samples, Eigen::Array3f::Zero()),
+        lamp_m(samples, 0.0f) {}
+
+  std::vector<Eigen::Array3f> direct;      ///< mean illuminance of the surfaces around each, lx
+  std::vector<Eigen::Array3f> looked_for;  ///< of it, as lookedFor() tells
+  std::vector<float> lamp_m;               ///< how far off that shines that this is of, in the mean
+};
+
+/// By the sum over the patches of the sky, of every sample.
 struct SumsOfAll {
   std::vector<float> direct;
-  std::vector<PassedOnSums> passed_on;
+  std::vector<Arrived> passed_on;
 };
 SumsOfAll sumsOf(const TransportData& data);
 
-/// Writes tint and glow of a sample's part, not its coefficients.
-void store(const PartSums& sums, std::size_t sample, PassedOn* part);
+/// Writes the tint of a sample's part, of such a sum; not its coefficients.
+void storeTint(const Eigen::Array3f& sum, std::size_t sample, PassedOn* part);
 
 }  // namespace sunlit::light

@@ -44,11 +44,11 @@ std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
 
 }  // namespace
 
-MeshBuilder::MeshBuilder(const BakeScene& scene, const ShiningSurfaces& shining)
+MeshBuilder::MeshBuilder(const BakeScene& scene, const AreaLights& bright)
     : geometry_(scene.geometry),
       rays_(scene.rays),
       traits_(scene.traits),
-      shining_(shining),
+      bright_(bright),
       occupied_(scene.geometry, scene.traits) {
   const SkyPatches patches(1);
   const std::vector<SkyPatches::Ray>& all = patches.coarseRays();
@@ -121,10 +121,10 @@ void MeshBuilder::lookAround(const std::vector<std::uint32_t>& from) {
       node.reach_m = near[i] > 0.0f ? all[i] / near[i] : 1e9f;
       node.nearest_m = nearest[i];
       if (all[i] > 0.0f) node.open = open[i] / all[i];
-      if (!shining_.any()) continue;
-      const ShiningSurfaces::Light light = shining_.at(receivers[i], from[begin + i]);
+      if (!bright_.any()) continue;
+      const AreaLights::Light light = bright_.about(receivers[i], from[begin + i]);
       node.shone_lx = LinearRgb(light.above + light.below).luminance();
-      node.shining_m = light.distance_m;
+      node.bright_m = light.distance_m;
     }
   });
 }
@@ -180,7 +180,7 @@ float MeshBuilder::shoneUnevenly(const LightMesh::Cell& cell) const {
     if (!node.valid) continue;
     least = std::min(least, node.shone_lx);
     most = std::max(most, node.shone_lx);
-    nearest = std::min(nearest, node.shining_m);
+    nearest = std::min(nearest, node.bright_m);
   }
   if (!(most > 0.0f)) return 0.0f;
   const float uneven = (most - least) / (kSmoothShine * std::max(0.5f * (most + least), kFaint_lx));

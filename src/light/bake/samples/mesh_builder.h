@@ -6,9 +6,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "light/bake/samples/area_lights.h"
 #include "light/bake/samples/mesh_nodes.h"
 #include "light/bake/samples/occupancy.h"
-#include "light/bake/samples/shining_surfaces.h"
 #include "light/bake/samples/transport_data.h"
 #include "light/bake/samples/triangle_kinds.h"
 
@@ -22,7 +22,7 @@ struct RefineLimits {
 class MeshBuilder {
  public:
   /// Keeps references.
-  MeshBuilder(const BakeScene& scene, const ShiningSurfaces& shining);
+  MeshBuilder(const BakeScene& scene, const AreaLights& bright);
 
   /// `progress` gets the share done, 0 … 1, about.
   void refine(const RefineLimits& limits, const std::function<void(double)>& progress);
@@ -64,7 +64,7 @@ class MeshBuilder {
   const Geometry& geometry_;
   const BakeRays& rays_;
   const std::vector<TriangleTraits>& traits_;
-  const ShiningSurfaces& shining_;
+  const AreaLights& bright_;
   Occupancy occupied_;
   std::vector<SkyPatches::Ray> directions_;                   ///< in which nodes look around
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of halved edges

@@ -25,9 +25,9 @@ struct MeshNode {
   float nearest_m = 0.0f;                             ///< the closest of it that is not as level as the place
   /// Share of an even sphere's light, by cosine, that nothing hides; before it, times its mean direction.
   Eigen::Vector4f open = Eigen::Vector4f::Zero();
-  float shone_lx = 0.0f;   ///< by surfaces that shine
-  float shining_m = 1e9f;  ///< how far off those are, as ShiningSurfaces tells
-  bool valid = true;       ///< not where no camera looks
+  float shone_lx = 0.0f;  ///< by surfaces that are bright
+  float bright_m = 1e9f;  ///< how far off those are, as AreaLights tells
+  bool valid = true;      ///< not where no camera looks
 
   /// A cell that it is a corner of has its middle there. `counts`: the length of the vector to it.
   void pullTowards(const Eigen::Vector3f& middle, float counts = 1.0f);

@@ -57,6 +57,12 @@ struct Receiver {
   }
   /// Share of what lies before `normal`, by cosine, that lies before `face` too.
   float open() const { return face.isZero() ? 1.0f : 0.5f * (1.0f + normal.dot(face)); }
+  /// Of its origins, clear of the surface, lest one that shines lights itself.
+  Eigen::Vector3f middle() const {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    for (std::size_t k = 0; k < kOrigins; ++k) sum += origins[k] + lifts[k];
+    return sum / static_cast<float>(kOrigins);
+  }
   Eigen::Vector3f start(std::size_t turn, const Eigen::Vector3f& towards) const {
     const Eigen::Vector3f& origin = origins[turn % kOrigins];
     const Eigen::Vector3f& lift = lifts[turn % kOrigins];

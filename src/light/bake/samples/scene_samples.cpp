@@ -49,8 +49,8 @@ void tidy(Shares* shares) {
 
 class Sampler {
  public:
-  Sampler(const BakeScene& scene, const ShiningSurfaces& shining)
-      : geometry_(scene.geometry), traits_(scene.traits), builder_(scene, shining) {}
+  Sampler(const BakeScene& scene, const AreaLights& bright)
+      : geometry_(scene.geometry), traits_(scene.traits), builder_(scene, bright) {}
 
   SceneSamples sample(const RefineLimits& limits, const std::function<void(double)>& progress) {
     CloudRule small_rule = kSmallRule, foliage_rule = kFoliageRule;
@@ -382,9 +382,9 @@ std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, cons
   return sampleOn(samples, root, {1.0f - u - v, u, v});
 }
 
-SceneSamples sampleScene(const BakeScene& scene, const ShiningSurfaces& shining, const RefineLimits& limits,
+SceneSamples sampleScene(const BakeScene& scene, const AreaLights& bright, const RefineLimits& limits,
                          const std::function<void(double)>& progress) {
-  SceneSamples samples = Sampler(scene, shining).sample(limits, progress);
+  SceneSamples samples = Sampler(scene, bright).sample(limits, progress);
   coupleSheets(scene, &samples);
   return samples;
 }

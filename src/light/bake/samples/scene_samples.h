@@ -42,7 +42,7 @@ struct LaneHit {
 std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, const LaneHit& hit);
 
 /// `progress` gets the share done, 0 … 1, about.
-SceneSamples sampleScene(const BakeScene& scene, const ShiningSurfaces& shining, const RefineLimits& limits,
+SceneSamples sampleScene(const BakeScene& scene, const AreaLights& bright, const RefineLimits& limits,
                          const std::function<void(double)>& progress);
 
 }  // namespace sunlit::light

@@ -8,7 +8,6 @@
 #include "light/shading/reflectances.h"
 #include "sunlit/light/lamps.h"
 #include "sunlit/light/surfaces.h"
-#include "sunlit/quantity/photometry.h"
 
 namespace sunlit::light {
 namespace {
@@ -17,8 +16,6 @@ namespace {
 /// more than that.
 constexpr int kAcross = 8;
 constexpr double kMostPieces = 1e6;
-/// See ShiningSurfaces::facing().
-constexpr int kFacings = 24;
 
 /// The parts of a triangle, by (u, v) of their corners: across² of them.
 std::vector<std::array<Eigen::Vector2f, 3>> partsOf(int across) {
@@ -69,16 +66,11 @@ class Solidity {
 
 }  // namespace
 
-ShiningSurfaces::ShiningSurfaces(const Geometry& geometry, const BakeRays& rays,
-                                 const std::vector<TriangleTraits>& traits)
-    : rays_(rays) {
+std::vector<AreaLights::Piece> shiningPieces(const Geometry& geometry,
+                                             const std::vector<TriangleTraits>& traits) {
+  std::vector<AreaLights::Piece> pieces;
   const std::vector<scene::Material>& materials = geometry.scene->materials;
-  if (std::none_of(materials.begin(), materials.end(), shines)) return;
-  add(geometry, traits);
-  build();
-}
-
-void ShiningSurfaces::add(const Geometry& geometry, const std::vector<TriangleTraits>& traits) {
+  if (std::none_of(materials.begin(), materials.end(), shines)) return pieces;
   const Reflectances reflectances(geometry);
   const Solidity solidity(geometry);
   std::vector<std::uint32_t> shining;
@@ -103,7 +95,7 @@ void ShiningSurfaces::add(const Geometry& geometry, const std::vector<TriangleTr
     const Eigen::Vector3f ab = geometry.positions[corners[1]] - a, ac = geometry.positions[corners[2]] - a;
     const int across = isUneven(t) ? most_across : 1;
     for (const auto& part : partsOf(across)) {
-      Piece piece;
+      AreaLights::Piece piece;
       Reflectances::Part corners_of_part;
       for (Eigen::Index k = 0; k < 3; ++k) {
         const Eigen::Vector2f& at = part[static_cast<std::size_t>(k)];
@@ -113,71 +105,10 @@ void ShiningSurfaces::add(const Geometry& geometry, const std::vector<TriangleTr
       piece.normal = geometry.planes[t].normal;
       piece.luminance = solidity.share(t, part) * reflectances.emission(t, corners_of_part);
       piece.both = material.double_sided && !traits[t].sealed[1];
-      const float area = 0.5f * ab.cross(ac).norm() / static_cast<float>(across * across);
-      piece.power = LinearRgb(piece.luminance).luminance() * area;
-      // It has no front: that of its opposite is as good.
-      if (piece.both && facing(piece) >= kFacings / 2) piece.normal = -piece.normal;
-      if (piece.power > 0.0f) pieces_.push_back(piece);
+      pieces.push_back(piece);
     }
   }
-}
-
-/// Which share of all directions its normal is in, a third of an octant: of what faces alike nearly all, or
-/// nearly nothing, is seen from a place. Opposite ones are half of all apart.
-int ShiningSurfaces::facing(const Piece& piece) {
-  Eigen::Index axis = 0;
-  piece.normal.cwiseAbs().maxCoeff(&axis);
-  const bool back = piece.normal[axis] < 0.0f;
-  const auto isBack = [&](Eigen::Index other) { return piece.normal[(axis + other) % 3] < 0.0f; };
-  // Of the opposite, all are the other way round.
-  const int quadrant = (isBack(1) != back ? 2 : 0) + (isBack(2) != back ? 1 : 0);
-  return (back ? kFacings / 2 : 0) + static_cast<int>(axis) * 4 + quadrant;
-}
-
-void ShiningSurfaces::build() {
-  const auto kind = [](const Piece& piece) { return facing(piece) + (piece.both ? kFacings : 0); };
-  std::stable_sort(pieces_.begin(), pieces_.end(),
-                   [&](const Piece& a, const Piece& b) { return kind(a) < kind(b); });
-  for (std::uint32_t first = 0, end = 0; end < pieces_.size(); first = end) {
-    while (end < pieces_.size() && kind(pieces_[end]) == kind(pieces_[first])) ++end;
-    roots_.push_back(static_cast<std::uint32_t>(clusters_.size()));
-    build(first, end);
-  }
-}
-
-void ShiningSurfaces::build(std::uint32_t first, std::uint32_t end) {
-  const std::size_t own = clusters_.size();
-  Cluster cluster;
-  cluster.first = first;
-  cluster.end = end;
-  Eigen::AlignedBox3f middles;
-  for (std::uint32_t i = first; i < end; ++i) {
-    cluster.box.extend(pieces_[i].box());
-    middles.extend(pieces_[i].middle());
-    cluster.power += pieces_[i].power;
-    cluster.intensity +=
-        pieces_[i].power / LinearRgb(pieces_[i].luminance).luminance() * pieces_[i].luminance;
-    cluster.middle += pieces_[i].power * pieces_[i].middle();
-    cluster.facing += pieces_[i].power * pieces_[i].normal;
-  }
-  cluster.middle /= cluster.power;
-  cluster.facing /= cluster.power;
-  for (std::uint32_t i = first; i < end; ++i)
-    cluster.spread =
-        std::max(cluster.spread, pieces_[i].normal.cross(cluster.facing).norm() / cluster.facing.norm());
-  clusters_.push_back(cluster);
-  if (end - first == 1) {
-    powers_.push_back((powers_.empty() ? 0.0 : powers_.back()) + static_cast<double>(cluster.power));
-    return;
-  }
-  Eigen::Index axis = 0;
-  middles.diagonal().maxCoeff(&axis);
-  const std::uint32_t half = first + (end - first) / 2;
-  std::nth_element(pieces_.begin() + first, pieces_.begin() + half, pieces_.begin() + end,
-                   [axis](const Piece& a, const Piece& b) { return a.middle()[axis] < b.middle()[axis]; });
-  build(first, half);
-  clusters_[own].second = static_cast<std::uint32_t>(clusters_.size());
-  build(half, end);
+  return pieces;
 }
 
 }  // namespace sunlit::light

@@ -1,76 +1,15 @@
-/// Light of surfaces that shine by themselves, sampled by what they give rather than met by chance: a panel
-/// of a hand's width lights a hall.
+/// Surfaces that shine by themselves.
 #pragma once
 
-#include <Eigen/Geometry>
-#include <array>
-#include <cstdint>
 #include <vector>
 
-#include "light/bake/samples/probe.h"
+#include "light/bake/samples/area_lights.h"
 #include "light/bake/samples/triangle_kinds.h"
 
 namespace sunlit::light {
 
-/// Surfaces with Material::emission that belongs to no group of lamps, cut into pieces that shine evenly.
-class ShiningSurfaces {
- public:
-  /// Keeps a reference to `rays`.
-  ShiningSurfaces(const Geometry& geometry, const BakeRays& rays, const std::vector<TriangleTraits>& traits);
-
-  /// Whether there are any.
-  bool any() const { return !pieces_.empty(); }
-
-  /// Illuminance by them straight, lx: from above the horizon, from below it; and how far off they are that
-  /// would give it if nothing hid them, m (harmonic mean).
-  struct Light {
-    Eigen::Array3f above = Eigen::Array3f::Zero(), below = Eigen::Array3f::Zero();
-    float distance_m = 1e9f;
-  };
-  /// Near ones are summed exactly but for what hides them, which rays to each part of them tell; far ones
-  /// that face alike are taken together in clusters no wider than a quarter of their distance. The same for
-  /// equal `key`, which chooses where rays go.
-  Light at(const Receiver& receiver, std::uint64_t key) const;
-
- private:
-  class Look;
-  /// Part of a triangle that shines evenly.
-  struct Piece {
-    std::array<Eigen::Vector3f, 3> corner;
-    Eigen::Vector3f normal;    ///< unit, to the front
-    Eigen::Array3f luminance;  ///< cd/m²
-    float power;               ///< cd, straight before it
-    bool both;                 ///< sides shine
-
-    Eigen::Vector3f middle() const { return (corner[0] + corner[1] + corner[2]) / 3.0f; }
-    Eigen::AlignedBox3f box() const {
-      return Eigen::AlignedBox3f(corner[0]).extend(corner[1]).extend(corner[2]);
-    }
-  };
-  /// Halves of halves of pieces that lie close together and face alike, or shine to both sides all of them.
-  struct Cluster {
-    Eigen::AlignedBox3f box;
-    Eigen::Array3f intensity = Eigen::Array3f::Zero();  ///< cd, if all pieces faced the same place
-    Eigen::Vector3f middle = Eigen::Vector3f::Zero();   ///< mean, by power
-    Eigen::Vector3f facing = Eigen::Vector3f::Zero();   ///< mean normal by power, shorter than 1
-    float spread = 0.0f;                                ///< sine of the widest angle to it
-    float power = 0.0f;                                 ///< cd
-    std::uint32_t first = 0, end = 0;                   ///< pieces
-    std::uint32_t second = 0;  ///< the second half; the first one follows its whole. 0: one piece alone
-  };
-
-  static int facing(const Piece& piece);
-  void add(const Geometry& geometry, const std::vector<TriangleTraits>& traits);
-  static float formFactor(const Piece& piece, const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
-  void build();
-  void build(std::uint32_t first, std::uint32_t end);
-  const Piece& pick(const Cluster& cluster, float chance) const;
-
-  const BakeRays& rays_;
-  std::vector<Piece> pieces_;
-  std::vector<Cluster> clusters_;
-  std::vector<std::uint32_t> roots_;  ///< clusters that are no part of another one
-  std::vector<double> powers_;        ///< of each piece and all before it
-};
+/// Of surfaces with Material::emission that belongs to no group of lamps: parts that shine evenly.
+std::vector<AreaLights::Piece> shiningPieces(const Geometry& geometry,
+                                             const std::vector<TriangleTraits>& traits);
 
 }  // namespace sunlit::light

@@ -1,9 +1,10 @@
-// What a place gets of surfaces that shine.
+// What a place gets of lights that are areas.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "light/bake/samples/shining_surfaces.h"
+#include "light/bake/samples/area_lights.h"
+#include "light/bake/samples/looked_for.h"
 #include "sunlit/quantity/photometry.h"
 #include "sunlit/quantity/random.h"
 
@@ -14,13 +15,36 @@ namespace {
 constexpr float kWidest = 0.25f;
 /// Sine of angles between normals of a cluster and their mean that make no difference.
 constexpr float kAlike = 0.15f;
-/// Of all that a place would get: of what gives less, some are asked for and count for more.
-constexpr float kSmall = 0.002f;
+/// lx: what is darker is not looked at, a hundredth of what a moonless sky gives.
+constexpr float kDark_lx = 1e-5f;
+/// lx: of what is fainter, a twentieth of moonlight, it is enough to know it about.
+constexpr float kFaint_lx = 0.01f;
+/// Rays that got through: the light of so many is known within a sixth.
+constexpr std::size_t kEnough = 36;
 /// Of the distance: as long as pieces may be before they are halved, and how often that is done at most.
 constexpr float kLongest = 0.5f;
 constexpr int kMostHalved = 20;
-/// Of a place, as far as kMostRays to each part allow.
-constexpr std::size_t kRays = 32, kMostRays = 8;
+/// Rays of a place, as far as the most to each part allow.
+struct RayCount {
+  std::size_t all, most;
+  std::size_t ofEach(std::size_t parts) const { return std::clamp<std::size_t>(all / parts, 1, most); }
+};
+
+}  // namespace
+
+struct AreaLights::Effort {
+  /// Of all that a place would get: clusters that may give no more are halved no further; nor is any, once so
+  /// many are.
+  float little;
+  std::size_t most_halved;
+  /// Of that: of parts that give less, some are asked for and count for more.
+  float small;
+  /// At first, and then where so few get through, though some do, as before a window that lets see a little
+  /// of a lit room.
+  std::array<RayCount, 3> rays;
+};
+
+namespace {
 
 using Triangle = std::array<Eigen::Vector3f, 3>;
 
@@ -33,8 +57,8 @@ float longestEdge(const Triangle& corner) {
 
 /// Illuminance, lx per cd/m², of a plane at `point` with the unit normal `normal` by a triangle that shines
 /// evenly and all of which is seen: the polygon formula of Lambert (1760), of the part before the plane.
-float ShiningSurfaces::formFactor(const Piece& piece, const Eigen::Vector3f& point,
-                                  const Eigen::Vector3f& normal) {
+float AreaLights::formFactor(const Piece& piece, const Eigen::Vector3f& point,
+                             const Eigen::Vector3f& normal) {
   std::array<Eigen::Vector3f, 4> polygon;
   std::size_t count = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -55,7 +79,7 @@ float ShiningSurfaces::formFactor(const Piece& piece, const Eigen::Vector3f& poi
 }
 
 /// A piece of a cluster, by its power; `chance` in [0, 1).
-const ShiningSurfaces::Piece& ShiningSurfaces::pick(const Cluster& cluster, float chance) const {
+const AreaLights::Piece& AreaLights::pick(const Cluster& cluster, float chance) const {
   const double before = cluster.first > 0 ? powers_[cluster.first - 1] : 0.0;
   const double sought = before + static_cast<double>(chance) * (powers_[cluster.end - 1] - before);
   const auto found =
@@ -64,28 +88,36 @@ const ShiningSurfaces::Piece& ShiningSurfaces::pick(const Cluster& cluster, floa
 }
 
 /// From one place.
-class ShiningSurfaces::Look {
+class AreaLights::Look {
  public:
-  Look(const ShiningSurfaces& sources, const Receiver& receiver, std::uint64_t key)
-      : sources_(sources), receiver_(receiver), key_(scrambled(key)) {
-    // Clear of the surface, lest one that shines lights itself.
-    for (std::size_t k = 0; k < Receiver::kOrigins; ++k)
-      middle_ += (receiver.origins[k] + receiver.lifts[k]) / Receiver::kOrigins;
-  }
-
-  Light all() {
-    for (const std::uint32_t root : sources_.roots_) gather(root);
-    float sum = 0.0f, over_distance = 0.0f;
+  Look(const AreaLights& sources, const Receiver& receiver, const Effort& effort, std::uint64_t key)
+      : sources_(sources),
+        receiver_(receiver),
+        effort_(effort),
+        key_(scrambled(key)),
+        middle_(receiver.middle()) {
+    gather();
+    float over_distance = 0.0f;
     for (const Asked& asked : asked_) {
-      sum += asked.size;
+      unhidden_ += asked.size;
       over_distance += asked.size / std::max(asked.distance_m, 1e-3f);
     }
-    if (!(sum > 0.0f)) return light_;
-    light_.distance_m = sum / over_distance;
-    passed_over_ = chance() * kSmall * sum;
-    const std::size_t rays = std::clamp<std::size_t>(kRays / asked_.size(), 1, kMostRays);
-    for (const Asked& asked : asked_) aim(asked, kSmall * sum, rays);
-    cast();
+    if (unhidden_ > 0.0f) light_.distance_m = unhidden_ / over_distance;
+  }
+
+  /// What it gets if nothing hides any of them, lx.
+  float unhidden() const { return unhidden_; }
+
+  Light light() {
+    if (!(unhidden_ > kDark_lx)) return light_;
+    std::size_t cast_to_each = 0;
+    for (const RayCount& count : effort_.rays) {
+      const std::size_t each = count.ofEach(asked_.size());
+      if (each == cast_to_each) break;
+      cast_to_each = each;
+      const std::size_t open = cast(each, effort_.small * unhidden_);
+      if (open == 0 || open == sights_.size() || open > kEnough) break;
+    }
     return light_;
   }
 
@@ -101,19 +133,70 @@ class ShiningSurfaces::Look {
   };
   float chance() { return uniform(key_, drawn_++); }
 
-  void gather(std::uint32_t number) {
+  /// A cluster that is to be halved: it is wide, or faces the place in part.
+  struct Coarse {
+    float most;   ///< that it may give, lx
+    float about;  ///< that it gives
+    std::uint32_t number;
+    bool operator<(const Coarse& other) const {
+      return most != other.most ? most < other.most : number > other.number;
+    }
+  };
+
+  /// Halves what may give most, until what is left matters little.
+  void gather() {
+    for (const std::uint32_t root : sources_.roots_) consider(root);
+    for (std::size_t halved = 0; halved < effort_.most_halved && !coarse_.empty(); ++halved) {
+      const Coarse largest = coarse_.front();
+      if (largest.most <= effort_.little * about_) break;
+      std::pop_heap(coarse_.begin(), coarse_.end());
+      coarse_.pop_back();
+      about_ -= largest.about;
+      consider(largest.number + 1);
+      consider(sources_.clusters_[largest.number].second);
+    }
+    for (const Coarse& left : coarse_) {
+      const Cluster& cluster = sources_.clusters_[left.number];
+      askFar(cluster, sources_.pieces_[cluster.first].both);
+    }
+  }
+
+  void consider(std::uint32_t number) {
     const Cluster& cluster = sources_.clusters_[number];
-    if (cluster.second != 0 && (isWide(cluster) || isSeenInPart(cluster))) {
-      gather(number + 1);
-      gather(cluster.second);
-      return;
-    }
     const Piece& piece = sources_.pieces_[cluster.first];
-    if (cluster.second != 0) {
+    if (isTooNear(cluster) || isBehind(cluster, piece.both)) return;
+    const std::size_t before = asked_.size();
+    if (cluster.second == 0) {
+      if (isSeen(piece)) ask(piece, 0);
+    } else if (isWide(cluster) || isSeenInPart(cluster)) {
+      const float nearest_m = std::max(cluster.box.exteriorDistance(middle_), 1e-3f);
+      const float wide_m = 0.5f * cluster.box.diagonal().norm(), away_m = (cluster.middle - middle_).norm();
+      const float most = cluster.power / (nearest_m * nearest_m),
+                  about = cluster.power / (away_m * away_m + wide_m * wide_m);
+      coarse_.push_back({most, about, number});
+      std::push_heap(coarse_.begin(), coarse_.end());
+      about_ += about;
+    } else {
       askFar(cluster, piece.both);
-    } else if (isSeen(piece)) {
-      ask(piece, 0);
     }
+    for (std::size_t i = before; i < asked_.size(); ++i) about_ += asked_[i].size;
+  }
+
+  /// Whether all of it shines by lamps that are no nearer to it than the place is.
+  bool isTooNear(const Cluster& cluster) const {
+    if (!(cluster.least_lamp_m > 0.0f)) return false;
+    const float farthest_m = (cluster.box.center() - middle_).norm() + 0.5f * cluster.box.diagonal().norm();
+    return !(lookedForFrom(cluster.least_lamp_m, farthest_m) > 0.0f);
+  }
+
+  /// Whether it lies below the place's plane, or the place behind those of all its pieces.
+  bool isBehind(const Cluster& cluster, bool both) const {
+    const Eigen::Vector3f way = cluster.box.center() - middle_, half = 0.5f * cluster.box.diagonal();
+    const auto reaches = [&](const Eigen::Vector3f& normal) {
+      return normal.dot(way) + normal.cwiseAbs().dot(half);
+    };
+    if (!(receiver_.transmission > 0.0f) && reaches(receiver_.normal) <= 0.0f) return true;
+    return !both && cluster.spread < kAlike && reaches(-cluster.facing) <= -kAlike * way.norm();
   }
 
   bool isWide(const Cluster& cluster) const {
@@ -136,9 +219,11 @@ class ShiningSurfaces::Look {
     const Eigen::Vector3f way = cluster.middle - middle_;
     const float distance_m = way.norm(), before = -cluster.facing.dot(way) / distance_m;
     const float seen = both ? std::abs(before) : std::max(before, 0.0f);
+    const float looked = lookedForFrom(cluster.lamp_m, distance_m);
     forEachSide([&](float side, float share) {
       const float cosine = std::max(side * receiver_.normal.dot(way) / distance_m, 0.0f);
-      const Eigen::Array3f light = cluster.intensity * (share * seen * cosine / (distance_m * distance_m));
+      const Eigen::Array3f light =
+          cluster.intensity * (looked * share * seen * cosine / (distance_m * distance_m));
       add({&cluster, std::nullopt, distance_m, side, light, 0.0f});
     });
   }
@@ -163,8 +248,9 @@ class ShiningSurfaces::Look {
       return;
     }
     const float distance_m = (piece.middle() - middle_).norm();
+    const float looked = lookedForFrom(piece.lamp_m, distance_m);
     forEachSide([&](float side, float share) {
-      const float factor = share * formFactor(piece, middle_, side * receiver_.normal);
+      const float factor = looked * share * formFactor(piece, middle_, side * receiver_.normal);
       add({nullptr, piece.corner, distance_m, side, piece.luminance * factor, 0.0f});
     });
   }
@@ -216,27 +302,52 @@ class ShiningSurfaces::Look {
     return false;
   }
 
-  void cast() {
+  /// By `rays` to each part, or its share of those for parts that give less than `least`: sets the light, and
+  /// returns how many got through.
+  std::size_t cast(std::size_t rays, float least) {
+    sights_.clear();
+    lights_.clear();
+    passed_over_ = chance() * least;
+    for (const Asked& asked : asked_) aim(asked, least, rays);
     std::vector<std::uint8_t> hidden;
     sources_.rays_.hide(sights_, &hidden);
-    for (std::size_t i = 0; i < sights_.size(); ++i)
-      if (!hidden[i]) (sights_[i].way.z() > 0.0f ? light_.above : light_.below) += lights_[i];
+    light_.above.setZero();
+    light_.below.setZero();
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      if (hidden[i]) continue;
+      (sights_[i].way.z() > 0.0f ? light_.above : light_.below) += lights_[i];
+      ++open;
+    }
+    return open;
   }
 
-  const ShiningSurfaces& sources_;
+  const AreaLights& sources_;
   const Receiver& receiver_;
+  const Effort& effort_;
   const std::uint64_t key_;
-  std::uint64_t drawn_ = 0;  ///< random numbers
-  Eigen::Vector3f middle_ = Eigen::Vector3f::Zero();
+  const Eigen::Vector3f middle_;
+  std::uint64_t drawn_ = 0;     ///< random numbers
+  std::vector<Coarse> coarse_;  ///< a heap
+  float about_ = 0.0f;          ///< lx, of all in it and in
   std::vector<Asked> asked_;
   std::vector<BakeSight> sights_;
-  std::vector<Eigen::Array3f> lights_;  ///< of each sight if nothing hides it, lx
-  float passed_over_ = 0.0f;            ///< lx
+  std::vector<Eigen::Array3f> lights_;          ///< of each sight if nothing hides it, lx
+  float unhidden_ = 0.0f, passed_over_ = 0.0f;  ///< lx
   Light light_;
 };
 
-ShiningSurfaces::Light ShiningSurfaces::at(const Receiver& receiver, std::uint64_t key) const {
-  return any() ? Look(*this, receiver, key).all() : Light();
+const AreaLights::Effort AreaLights::kClosely{0.005f, 300, 0.002f, {{{32, 8}, {128, 16}, {512, 64}}}},
+    AreaLights::kAbout{0.03f, 32, 0.05f, {{{8, 4}, {8, 4}, {8, 4}}}};
+
+AreaLights::Light AreaLights::at(const Receiver& receiver, std::uint64_t key) const {
+  if (!any()) return {};
+  Look about(*this, receiver, kAbout, key);
+  return about.unhidden() < kFaint_lx ? about.light() : Look(*this, receiver, kClosely, key).light();
+}
+
+AreaLights::Light AreaLights::about(const Receiver& receiver, std::uint64_t key) const {
+  return any() ? Look(*this, receiver, kAbout, key).light() : Light();
 }
 
 }  // namespace sunlit::light
