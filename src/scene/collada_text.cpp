@@ -27,15 +27,27 @@ std::string without(const std::string& text, const std::string& begin, const std
   return kept.append(text, copied, std::string::npos);
 }
 
-std::string withoutBlanksBeforeColors(const std::string& text) {
+/// The end of the blanks and comments at `at`.
+std::size_t endOfBlanks(const std::string& text, std::size_t at) {
+  const std::string begin = "<!--", end = "-->";
+  for (;;) {
+    at = std::min(text.size(), text.find_first_not_of(" \t\r\n", at));
+    if (text.compare(at, begin.size(), begin) != 0) return at;
+    const std::size_t last = text.find(end, at + begin.size());
+    if (last == std::string::npos) return at;
+    at = last + end.size();
+  }
+}
+
+/// `text` without the blanks and comments behind the tags of these names.
+std::string withoutBlanksAfter(const std::string& text, const std::set<std::string>& names) {
   std::string mended;
   std::size_t copied = 0;
-  for (std::size_t tag = text.find("<color"); tag != std::string::npos; tag = text.find("<color", copied)) {
-    const std::size_t end = text.find('>', tag);
-    if (end == std::string::npos) break;
-    mended.append(text, copied, end + 1 - copied);
-    copied = std::min(text.size(), text.find_first_not_of(" \t\r\n", end + 1));
-  }
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {
+    if (names.count(name) == 0 || at < copied) return;
+    mended.append(text, copied, at + tag.size() - copied);
+    copied = endOfBlanks(text, at + tag.size());
+  });
   return mended.append(text, copied, std::string::npos);
 }
 
@@ -184,6 +196,10 @@ std::string withoutAnimations(const std::string& text) {
   return kept;
 }
 
+std::string withWeightsAtOnce(const std::string& text) {
+  return withoutBlanksAfter(text, {"v", "vcount"});
+}
+
 ColladaText readableCollada(const std::string& text) {
   ColladaText readable;
   std::size_t comments = 0;
@@ -192,7 +208,7 @@ ColladaText readableCollada(const std::string& text) {
   // What remains are polygons as others are, and Assimp 5.0 knows no <ph>.
   std::size_t tags = 0;
   for (const char* tag : {"<ph", "</ph"}) readable.text = without(readable.text, tag, ">", &tags);
-  readable.text = withoutBlanksBeforeColors(readable.text);
+  readable.text = withoutBlanksAfter(readable.text, {"color"});
   nameFilesOfImages(readable.text);
   return readable;
 }

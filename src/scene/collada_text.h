@@ -26,6 +26,10 @@ constexpr const char* kBareMaterial = "sunlit: without a material";
 /// name: Assimp gives it the first of the library. Lines stay where they are.
 std::string withBareMaterials(const std::string& text);
 
+/// `text` without blanks before the numbers of <v> and <vcount>: Assimp takes them for zeros, or for the
+/// sizes of what it then writes beyond. Lines do not stay where they are.
+std::string withWeightsAtOnce(const std::string& text);
+
 /// `text` without comments, without blanks between the tag of a colour and its numbers, and without holes;
 /// and pictures without a file have one that is not there, called as the image is.
 ColladaText readableCollada(const std::string& text);

@@ -16,7 +16,8 @@ std::string source(const std::string& id, const std::string& array, const std::s
 
 /// A triangle at the origin whose shape is bound 7 m up and 1 m to the left of a joint of that name, which
 /// stands at (10, 5, 0); the node of the skin is far away.
-std::string skin(const std::string& joint, const std::string& more_nodes = "") {
+std::string skin(const std::string& joint, const std::string& more_nodes = "",
+                 const std::string& weights = "<vcount>1 1 1</vcount><v>0 0 0 0 0 0</v>") {
   return "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset>"
          "<up_axis>Z_UP</up_axis></asset><library_geometries><geometry id='g' name='g'><mesh>" +
          source("p", "<float_array id='pa' count='9'>0 0 0 1 0 0 0 1 0</float_array>",
@@ -35,7 +36,8 @@ std::string skin(const std::string& joint, const std::string& more_nodes = "") {
          "<joints><input semantic='JOINT' source='#j'/><input semantic='INV_BIND_MATRIX' "
          "source='#m'/></joints>"
          "<vertex_weights count='3'><input semantic='JOINT' source='#j' offset='0'/>"
-         "<input semantic='WEIGHT' source='#w' offset='1'/><vcount>1 1 1</vcount><v>0 0 0 0 0 0</v>"
+         "<input semantic='WEIGHT' source='#w' offset='1'/>" +
+         weights +
          "</vertex_weights></skin></controller></library_controllers><library_visual_scenes>"
          "<visual_scene id='s'><node id='arm' name='arm'><translate>10 0 0</translate>"
          "<node id='bone' sid='bone' " +
@@ -52,6 +54,16 @@ TEST_F(ColladaSkin, IsWhereItsJointHoldsItsShape) {
   EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
   EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(9, 5, 7)).norm(), 1e-5f);
   EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(10, 6, 7)).norm(), 1e-5f);
+}
+
+TEST_F(ColladaSkin, MayHaveBlanksBeforeItsNumbers) {
+  for (const std::string blanks : {" ", "\n\t", "<!-- of each vertex -->\n"}) {
+    const std::string weights = "<vcount>" + blanks + "1 1 1</vcount><v>" + blanks + "0 0 0 0 0 0</v>";
+    const Scene scene = load(write("t.dae", skin("name='upper'", "", weights)), {});
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(9, 5, 7)).norm(), 1e-5f);
+    EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(10, 6, 7)).norm(), 1e-5f);
+  }
 }
 
 TEST_F(ColladaSkin, StandsAtItsNodeAndIsNamedWhereItsJointIsNotKnown) {
