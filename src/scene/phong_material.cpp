@@ -76,13 +76,24 @@ bool isOfLibrary(const aiMaterial& source, const MeshFileContext& context) {
   return context.obj_materials.count(nameOf(source)) == 1;
 }
 
+/// What Assimp 5.2 makes for a PLY file without materials: as those that such a file has, it has no name.
+bool isOfBarePly(const aiMaterial& source) {
+  aiColor4D diffuse, specular;
+  source.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+  source.Get(AI_MATKEY_COLOR_SPECULAR, specular);
+  const auto least = [](const aiColor4D& color) { return std::min({color.r, color.g, color.b}); };
+  return nameOf(source).empty() && pictureOf(source, aiTextureType_DIFFUSE).empty() &&
+         std::min(least(diffuse), least(specular)) >= 1.0f;
+}
+
 /// Whether Assimp gave it to a mesh whose file has none: files may call theirs alike.
 bool isBare(const aiMaterial& source, const MeshFileContext& context) {
-  if (extensionOf(context.file) == ".dae" && nameOf(source) == kBareMaterial) return true;
+  const std::string extension = extensionOf(context.file);
+  if (extension == ".dae" && nameOf(source) == kBareMaterial) return true;
+  if (extension == ".ply" && isOfBarePly(source)) return true;
   if (nameOf(source) != AI_DEFAULT_MATERIAL_NAME || isOfLibrary(source, context)) return false;
   int shading = 0;  // which all effects of COLLADA have
-  return extensionOf(context.file) != ".dae" ||
-         source.Get(AI_MATKEY_SHADING_MODEL, shading) != aiReturn_SUCCESS;
+  return extension != ".dae" || source.Get(AI_MATKEY_SHADING_MODEL, shading) != aiReturn_SUCCESS;
 }
 
 /// Whether its colour is Assimp's own. STL and PLY may have one, and come out as white as nothing is where

@@ -121,5 +121,33 @@ TEST_F(RobotLooks, OfAMeshWithoutMaterialsAreThoseOfTheUrdf) {
   EXPECT_NE(materialOf(robot(mesh, "")).name, "red");
 }
 
+/// A triangle; what each vertex and the face have more, and a further element.
+std::string ply(const std::string& vertex = "", const std::string& color = "", const std::string& more = "",
+                const std::string& element = "") {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
+         vertex + "element face 1\nproperty list uchar int vertex_indices\n" + more + "end_header\n" +
+         "0 0 0" + color + "\n1 0 0" + color + "\n0 1 0" + color + "\n3 0 1 2\n" + element;
+}
+
+TEST_F(RobotLooks, OfAPlyWithoutAMaterialAreThoseOfTheUrdf) {
+  const std::string mesh = "<mesh filename='m.ply'/>";
+  const auto isAll = [&](float value) {
+    return (materialOf(robot(visual(mesh), "")).base_color.value - value).abs().maxCoeff() < 1e-4f;
+  };
+  write("robot/m.ply", ply());
+  EXPECT_EQ(materialOf(robot(visual(mesh, kRed), "")).name, "red");
+  EXPECT_TRUE(isAll(0.18f));
+
+  write("robot/m.ply", ply("property uchar red\nproperty uchar green\nproperty uchar blue\n", " 9 9 9"));
+  EXPECT_TRUE(isAll(1.0f));
+
+  write("robot/m.ply", ply("", "",
+                           "element material 1\nproperty uchar diffuse_red\nproperty uchar diffuse_green\n"
+                           "property uchar diffuse_blue\n",
+                           "255 255 255\n"));
+  EXPECT_NE(materialOf(robot(visual(mesh, kRed), "")).name, "red");
+  EXPECT_TRUE(isAll(1.0f));
+}
+
 }  // namespace
 }  // namespace sunlit::scene
