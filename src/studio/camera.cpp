@@ -1,5 +1,6 @@
 #include "studio/camera.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sunlit/image/rain_streaks.h"
@@ -140,6 +141,12 @@ Developed Camera::photograph(const Lit& lit, std::optional<double> ev100, Stopwa
     if (chain.noise.enabled) image::addSensorNoise(exposed, chain.noise, lit.name, &luminance);
     return Developed{image::throughMosaic(image::develop(luminance, exposed), chain.mosaic), exposed};
   });
+}
+
+bool Camera::seesAnything() const {
+  const std::vector<light::Tile>& tiles = renderer_->surfaces().tiles;
+  return std::any_of(tiles.begin(), tiles.end(),
+                     [](const light::Tile& tile) { return !tile.surfaces.empty(); });
 }
 
 }  // namespace sunlit::studio

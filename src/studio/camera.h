@@ -37,6 +37,8 @@ class Camera {
   Developed photograph(const Lit& lit, std::optional<double> ev100, Stopwatch* stopwatch) const;
   double meter(const Lit& lit, Stopwatch* stopwatch) const;
   image::DepthImage depth() const { return renderer_->depth(); }
+  /// In the first state of the world, as depth() has it.
+  bool seesAnything() const;
   std::string rasterizer() const { return renderer_->rasterizer(); }
 
  private:

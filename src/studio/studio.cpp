@@ -217,4 +217,8 @@ image::DepthImage Studio::depth() {
   return stopwatch_.measure("depth", "pose", [&] { return camera_->depth(); });
 }
 
+bool Studio::seesAnything() const {
+  return camera_->seesAnything();
+}
+
 }  // namespace sunlit::studio

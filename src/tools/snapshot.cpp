@@ -1,7 +1,5 @@
 // One picture of a world under a given sun.
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -43,9 +41,8 @@ void takeSnapshot(const SnapshotOptions& options) {
   studio.look(view.placeIn(studio), {}, view.motion);
   const studio::Developed developed = studio.photograph(studio.illumination(day), {});
   image::writePng(options.output, developed.picture);
-  const image::DepthImage depth = studio.depth();
-  if (!options.depth_output.empty()) image::writePfm(options.depth_output, depth);
-  if (std::none_of(depth.data.begin(), depth.data.end(), [](float metres) { return std::isfinite(metres); }))
+  if (!options.depth_output.empty()) image::writePfm(options.depth_output, studio.depth());
+  if (!studio.seesAnything())
     std::fprintf(stderr, "warning: nothing of the world is in view, %s\n",
                  placeOf(*studio.world().geometry).c_str());
   else if (image::isBlack(developed.picture))

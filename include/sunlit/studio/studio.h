@@ -124,6 +124,9 @@ class Studio {
                                    double ev100, const Setting& setting = {});
   /// At the moment of look(), all rows at once.
   image::DepthImage depth();
+  /// Whether anything of the world is in what look() looks at, be it no more than what blends, which has no
+  /// depth.
+  bool seesAnything() const;
 
   const light::World& world() const { return worlds_.front(); }
   /// One a state.

@@ -34,6 +34,24 @@ StudioOptions boxes() {
 
 const sky::SunInSky kHighSun{Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0};
 
+// It has no depth.
+TEST(Studio, SeesWhatBlendsToo) {
+  const TemporaryFolder folder;
+  setContent(
+      folder.file("pane.urdf"),
+      "<robot name='pane'><link name='base'><visual><origin xyz='5 0 0'/><geometry>"
+      "<box size='0.1 90 90'/></geometry><material name='veil'><color rgba='0.6 1 0.2 0.5'/></material>"
+      "</visual></link></robot>");
+  StudioOptions options = boxes();
+  options.world.name = folder.file("pane.urdf");
+  Studio studio(options);
+  studio.look(Eigen::Isometry3d::Identity());
+  EXPECT_TRUE(std::isnan(*studio.depth().at(24, 16)));
+  EXPECT_TRUE(studio.seesAnything());
+  studio.look(Eigen::Isometry3d(Eigen::Translation3d(9, 0, 0)));
+  EXPECT_FALSE(studio.seesAnything());
+}
+
 TEST(Studio, RefusesBadOptionsBeforeItLoadsTheWorld) {
   StudioOptions options = boxes();
   options.world.name = "no_such.world";
