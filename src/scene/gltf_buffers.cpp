@@ -84,6 +84,10 @@ std::string GltfBuffers::read(std::size_t buffer) const {
   if (!list.is_array() || buffer >= list.size())
     throw std::runtime_error("there is no buffer " + std::to_string(buffer));
   const nlohmann::json& address = child(list[buffer], "uri");
+  const char* const packing = packingOf(list[buffer]);
+  if (!address.is_string() && packing != nullptr)
+    throw std::runtime_error(std::string(packing) + ": buffer " + std::to_string(buffer) +
+                             " is nowhere but in packed views, which were not unpacked");
   if (!address.is_string() && buffer > 0)
     throw std::runtime_error("buffer " + std::to_string(buffer) + " has no address");
   if (!address.is_string()) return secondChunk(file_);

@@ -16,6 +16,12 @@ namespace sunlit::scene {
 
 using nlohmann::json;
 
+namespace {
+
+constexpr const char* kPackings[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+
+}  // namespace
+
 std::string bytesOf(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -82,6 +88,17 @@ std::string meantPath(const std::string& path) {
 
 const json& extension(const json& from, const char* name) {
   return child(child(from, "extensions"), name);
+}
+
+bool isPacking(const std::string& name) {
+  return std::find(std::begin(kPackings), std::end(kPackings), name) != std::end(kPackings);
+}
+
+const char* packingOf(const json& from) {
+  for (const char* const name : kPackings) {
+    if (!extension(from, name).empty()) return name;
+  }
+  return nullptr;
 }
 
 }  // namespace sunlit::scene

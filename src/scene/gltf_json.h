@@ -34,5 +34,9 @@ std::size_t numbersOfElement(const nlohmann::json& accessor);
 std::string meantPath(const std::string& path);
 /// What `from` says in the words of an extension; empty if nothing.
 const nlohmann::json& extension(const nlohmann::json& from, const char* name);
+/// Whether this is a name of the extension of packed views: EXT_meshopt_compression, or Khronos's for it.
+bool isPacking(const std::string& name);
+/// The name by whose words `from`, a view or a buffer, is packed; null: it is not.
+const char* packingOf(const nlohmann::json& from);
 
 }  // namespace sunlit::scene

@@ -134,7 +134,7 @@ std::vector<std::string> GltfMaterials::unknown(const char* list) const {
   const json& used = child(json_->root, list);
   for (const json& name : used.is_array() ? used : json::array()) {
     const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
-    const bool read = known.count(text) > 0 || (text == kPacked && unpacks());
+    const bool read = known.count(text) > 0 || (isPacking(text) && unpacks());
     if (!isKnownOfMaterials(text) && !read) unknown.push_back(text);
   }
   return unknown;

@@ -61,7 +61,8 @@ std::string unpacked(const Packed& packed, const std::string& bytes) {
   if (packed.mode == "TRIANGLES") unpack = meshopt_decodeIndexBuffer;
   if (packed.mode == "INDICES") unpack = meshopt_decodeIndexSequence;
   if (unpack(out.data(), packed.count, packed.stride, from, packed.length) != 0)
-    throw std::runtime_error("cannot be unpacked: its bytes are cut off or not what its mode says");
+    throw std::runtime_error(
+        "cannot be unpacked: its bytes are cut off, not what its mode says, or of a later version");
   if (packed.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), packed.count, packed.stride);
   if (packed.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), packed.count, packed.stride);
   if (packed.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), packed.count, packed.stride);
@@ -70,7 +71,7 @@ std::string unpacked(const Packed& packed, const std::string& bytes) {
 
 /// The content of `view`, which is some of the `room` bytes of its own buffer.
 std::string unpackedView(const json& view, std::size_t room, GltfBuffers& buffers) {
-  const Packed packed = packedOf(extension(view, kPacked));
+  const Packed packed = packedOf(extension(view, packingOf(view)));
   const std::size_t length = indexOf(view.at("byteLength")), begin = indexOf(view, "byteOffset", 0);
   if (begin > room || length > room - begin) throw std::runtime_error("reaches beyond its buffer");
   if (packed.stride > length || packed.count > length || packed.unpackedBytes() != length)
@@ -86,7 +87,9 @@ std::map<std::size_t, std::string> emptyBuffers(const json& root) {
   std::map<std::size_t, std::string> empty;
   const json& buffers = child(root, "buffers");
   for (std::size_t i = 0; buffers.is_array() && i < buffers.size(); ++i) {
-    if (!extension(buffers[i], kPacked).value("fallback", false) || buffers[i].contains("uri")) continue;
+    const char* const packing = packingOf(buffers[i]);
+    if (packing == nullptr || buffers[i].contains("uri")) continue;
+    if (!extension(buffers[i], packing).value("fallback", false)) continue;
     const std::size_t bytes = indexOf(buffers[i].at("byteLength"));
     if (bytes > kMost_bytes)
       throw std::runtime_error("buffer " + std::to_string(i) + " is packed, and of more than 1 GiB");
@@ -107,12 +110,13 @@ bool unpackViews(json& root, GltfBuffers& buffers) {
   const json& views = child(root, "bufferViews");
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto to = made.find(indexOf(views.at(i), "buffer", views.size()));
-    if (to == made.end() || extension(views[i], kPacked).empty()) continue;
+    const char* const packing = packingOf(views[i]);
+    if (to == made.end() || packing == nullptr) continue;
     try {
       const std::string bytes = unpackedView(views[i], to->second.size(), buffers);
       to->second.replace(indexOf(views[i], "byteOffset", 0), bytes.size(), bytes);
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error("view " + std::to_string(i) + ": " + error.what());
+      throw std::runtime_error(std::string(packing) + ": view " + std::to_string(i) + ": " + error.what());
     }
   }
   for (auto& [buffer, bytes] : made) buffers.make(buffer, std::move(bytes));

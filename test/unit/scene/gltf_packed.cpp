@@ -53,6 +53,7 @@ struct Parts {
   std::string more_of_positions;  ///< of the extension's words
   std::string buffers_end;        ///< instead of the buffer that is nowhere
   std::size_t cut_bytes = 0;
+  std::string extension = "EXT_meshopt_compression";
 };
 
 std::string wordsOf(const View& view, std::size_t from, std::size_t to, const std::string& more) {
@@ -66,7 +67,8 @@ std::string wordsOf(const View& view, std::size_t from, std::size_t to, const st
          "\"" + more + "}}}";
 }
 
-std::string gltf(const Parts& parts) {
+/// In its words, as the other extension has them.
+std::string gltfOfExt(const Parts& parts) {
   // Normals towards the viewer, octahedral in 8 bits.
   const std::array<float, 16> towards = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
   std::array<std::int8_t, 16> normals{};
@@ -98,6 +100,14 @@ std::string gltf(const Parts& parts) {
          R"(,"uri":"data:;base64,)" + base64(bytes) + "\"}," + end + "]}";
 }
 
+std::string gltf(const Parts& parts) {
+  const std::string ext = "EXT_meshopt_compression";
+  std::string text = gltfOfExt(parts);
+  for (std::size_t at = text.find(ext); at != std::string::npos; at = text.find(ext, at + 1))
+    text.replace(at, ext.size(), parts.extension);
+  return text;
+}
+
 class GltfPacked : public SceneFiles {
  protected:
   void expectWhole(const Parts& parts) const {
@@ -115,6 +125,25 @@ class GltfPacked : public SceneFiles {
 
 TEST_F(GltfPacked, ViewsAreUnpacked) {
   expectWhole({});
+}
+
+TEST_F(GltfPacked, ViewsAreUnpackedByKhronossNameToo) {
+  Parts parts;
+  parts.extension = "KHR_meshopt_compression";
+  expectWhole(parts);
+  parts.more_of_positions = R"(,"filter":"COLOR")";
+  EXPECT_EQ(errorOfParts(parts),
+            pathOf("t.gltf") +
+                ": KHR_meshopt_compression: view 0: filter COLOR is not known for ATTRIBUTES of 12 bytes");
+}
+
+TEST_F(GltfPacked, BuffersThatAreNowhereElseAreNamedByTheirExtension) {
+  Parts parts;
+  parts.buffers_end = R"({"byteLength":76,"extensions":{"EXT_meshopt_compression":{"fallback":false}}})";
+  EXPECT_EQ(
+      errorOfParts(parts),
+      pathOf("t.gltf") +
+          ": EXT_meshopt_compression: buffer 1 is nowhere but in packed views, which were not unpacked");
 }
 
 TEST_F(GltfPacked, CornersOfAnyOrderAreASequence) {
@@ -140,7 +169,7 @@ TEST_F(GltfPacked, WhereABufferIsThereItIsTaken) {
 }
 
 TEST_F(GltfPacked, WhatCannotBeUnpackedIsNamed) {
-  const std::string view = pathOf("t.gltf") + ": view ";
+  const std::string view = pathOf("t.gltf") + ": EXT_meshopt_compression: view ";
   Parts parts;
   parts.cut_bytes = 4;
   EXPECT_EQ(errorOfParts(parts), view + "2: reaches beyond its buffer");
@@ -157,8 +186,9 @@ TEST_F(GltfPacked, WhatCannotBeUnpackedIsNamed) {
   parts.more_of_positions = R"(,"byteStride":6,"count":8)";
   EXPECT_EQ(errorOfParts(parts), view + "0: elements of attributes must have 4, 8, … 256 bytes, not 6");
   parts.more_of_positions = R"(,"byteLength":20)";
-  EXPECT_EQ(errorOfParts(parts),
-            view + "0: cannot be unpacked: its bytes are cut off or not what its mode says");
+  EXPECT_EQ(
+      errorOfParts(parts),
+      view + "0: cannot be unpacked: its bytes are cut off, not what its mode says, or of a later version");
   parts = Parts();
   parts.buffers_end =
       R"({"byteLength":4294967295,"extensions":{"EXT_meshopt_compression":{"fallback":true}}})";
