@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/glb_file.h"
+#include "scene/gltf_addresses.h"
 #include "scene/gltf_buffers.h"
 #include "scene/gltf_floats.h"
 #include "scene/gltf_instances.h"
@@ -142,6 +143,7 @@ void requireGltf2(const json& root, const std::string& file) {
 
 GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(file) {
   GltfBuffers buffers(root, file);
+  mended |= usePlainAddresses(root);
   mended |= root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
   try {
     buffers.requireNoDevices();

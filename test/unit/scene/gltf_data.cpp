@@ -1,0 +1,105 @@
+// Where the numbers of glTF files are: in addresses.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/base64.h"
+#include "unit/scene/measure.h"
+#include "unit/scene/scene_files.h"
+
+namespace sunlit::scene {
+namespace {
+
+template <typename Number>
+std::string bytesOf(const std::vector<Number>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), sizeof(Number) * numbers.size()};
+}
+
+std::string escaped(const std::string& text, const std::string& letters) {
+  const char* const digits = "0123456789ABCDEF";
+  std::string out;
+  for (const char letter : text) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (letters.empty() || letters.find(letter) != std::string::npos)
+      out += std::string("%") + digits[code >> 4] + digits[code & 15];
+    else
+      out += letter;
+  }
+  return out;
+}
+
+/// Two triangles, 3 m wide and 2 m high, and coordinates for pictures.
+const std::string kNumbers = bytesOf<float>({0, 0, 0, 3, 0, 0, 0, 2, 0, 3, 2, 0}) +
+                             bytesOf<float>({0, 0, 1, 0, 0, 1, 1, 1}) +
+                             bytesOf<std::uint16_t>({0, 1, 2, 2, 1, 3});
+
+struct Parts {
+  std::string uri = "data:;base64," + base64(kNumbers);
+  std::string attributes = "", targets = "";  ///< more of them, before and behind a comma
+  std::string accessors = "";                 ///< from the fourth on
+  std::string material = R"({"name":"m"})";
+  std::string more = "";
+};
+
+std::string gltf(const Parts& parts) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"materials":[)" +
+         parts.material + R"(],"meshes":[{"weights":[1],"primitives":[{"material":0,"indices":2,"attributes":{
+"POSITION":0,"TEXCOORD_0":1)" +
+         parts.attributes + "}" + parts.targets + R"(}]}],"accessors":[
+{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[3,2,0]},
+{"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"},
+{"bufferView":2,"componentType":5123,"count":6,"type":"SCALAR"})" +
+         parts.accessors + R"(],"bufferViews":[{"buffer":0,"byteLength":48},
+{"buffer":0,"byteOffset":48,"byteLength":32},{"buffer":0,"byteOffset":80,"byteLength":12}],
+"buffers":[{"byteLength":92,"uri":")" +
+         parts.uri + "\"}]" + parts.more + "}";
+}
+
+class GltfData : public SceneFiles {
+ protected:
+  Scene loaded(const Parts& parts) const { return load(write("t.gltf", gltf(parts)), {}); }
+  static void expectWhole(const Scene& scene) {
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    ASSERT_EQ(scene.triangleCount(), 2u);
+    EXPECT_EQ(boundsOf(scene).min(), Eigen::Vector3f(0, 0, 0));
+    EXPECT_EQ(boundsOf(scene).max(), Eigen::Vector3f(3, 0, 2));  // glTF's y is up
+    EXPECT_NEAR(areaOf(scene.meshes[0]), 6.0, 1e-6);
+  }
+};
+
+// RFC 2397: data are of an address, and escaped as such, or base64, which may be, too.
+TEST_F(GltfData, InAddressesMayBeEscaped) {
+  for (const std::string& uri : {"data:application/octet-stream;base64," + escaped(base64(kNumbers), "+/="),
+                                 "data:application/octet-stream," + escaped(kNumbers, ""),
+                                 "DATA:application/octet-stream;BASE64," + base64(kNumbers)}) {
+    Parts parts;
+    parts.uri = uri;
+    expectWhole(loaded(parts));
+    // Whole numbers are read before Assimp does that.
+    parts.accessors = R"(,{"bufferView":2,"componentType":5121,"normalized":true,"count":4,"type":"VEC3"})";
+    parts.attributes = R"(,"COLOR_0":3)";
+    const Scene scene = loaded(parts);
+    expectWhole(scene);
+    ASSERT_EQ(scene.meshes[0].colors.size(), 6u);  // each triangle has its own
+    EXPECT_FLOAT_EQ(scene.meshes[0].colors[0][2], 1.0f / 255.0f);
+  }
+}
+
+TEST_F(GltfData, OfPicturesMayBeEscapedToo) {
+  writeTexture("paint.png");
+  const std::string png = contentOf(pathOf("paint.png"));
+  for (const std::string& uri :
+       {"data:image/png;base64," + escaped(base64(png), "+/="), "data:image/png," + escaped(png, "")}) {
+    Parts parts;
+    parts.material = R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
+    parts.more = R"(,"textures":[{"source":0}],"images":[{"uri":")" + uri + "\"}]";
+    const Scene scene = loaded(parts);
+    expectWhole(scene);
+    ASSERT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.textures[0].rgba[0], 200);
+  }
+}
+
+}  // namespace
+}  // namespace sunlit::scene
