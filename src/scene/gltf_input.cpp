@@ -150,6 +150,7 @@ GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(fi
     mended |= unpackViews(root, buffers);
     mended |= placeInstances(root, buffers);
     turned_of_instances_ = makeUnit(root);  // those of nodes of the file are by now
+    mended |= giveZeros(root, buffers);
     mended |= useFloats(root, buffers);
     mended |= giveMatrices(root, buffers);
     mended |= nameJoints(root);

@@ -6,6 +6,9 @@
 
 namespace sunlit::scene {
 
+/// Name of the extension of primitives that Draco packs.
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+
 /// All of a file. Throws std::runtime_error naming it if it cannot be read.
 std::string bytesOf(const std::string& file);
 /// The JSON of a glTF file, and what stands behind it: nothing in a .gltf.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <set>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "scene/gltf_json.h"
@@ -84,7 +86,57 @@ bool makeScene(json& root) {
   return true;
 }
 
+/// Of the accessors of shapes. What Draco packs is in no view either.
+std::set<std::size_t> accessorsOfShapes(const json& root) {
+  std::set<std::size_t> found;
+  const auto note = [&found](const json& index) {
+    if (index.is_number_unsigned()) found.insert(index.get<std::size_t>());
+  };
+  for (const json& mesh : child(root, "meshes")) {
+    for (const json& primitive : child(mesh, "primitives")) {
+      if (!extension(primitive, kDraco).empty()) continue;
+      note(child(primitive, "indices"));
+      for (const json& index : child(primitive, "attributes")) note(index);
+      for (const json& target : child(primitive, "targets")) {
+        for (const json& index : target) note(index);
+      }
+    }
+  }
+  for (const json& skin : child(root, "skins")) note(child(skin, "inverseBindMatrices"));
+  return found;
+}
+
+/// No less than those of its elements.
+std::size_t bytesOfElements(const json& accessor, std::size_t number) {
+  constexpr std::size_t kMost_bytes = std::size_t{1} << 30, kComponent_bytes = 4;
+  const std::size_t element = kComponent_bytes * numbersOfElement(accessor),
+                    count = indexOf(accessor, "count", 0);
+  if (count > kMost_bytes / element)
+    throw std::runtime_error("accessor " + std::to_string(number) +
+                             " is in no view, so all of zeros, and of more than 1 GiB");
+  return count * element;
+}
+
 }  // namespace
+
+bool giveZeros(json& root, GltfBuffers& buffers) {
+  std::size_t bytes = 0;
+  const std::size_t view = child(root, "bufferViews").size(), buffer = child(root, "buffers").size();
+  for (const std::size_t number : accessorsOfShapes(root)) {
+    if (number >= child(root, "accessors").size()) continue;  // Assimp says so
+    json& accessor = root["accessors"][number];
+    if (!accessor.is_object() || accessor.contains("bufferView") || accessor.contains("sparse")) continue;
+    const std::size_t needed = bytesOfElements(accessor, number);
+    if (needed == 0) continue;
+    bytes = std::max(bytes, needed);
+    accessor["bufferView"] = view;
+    accessor.erase("byteOffset");
+  }
+  if (bytes == 0) return false;
+  root["bufferViews"].push_back(json{{"buffer", buffer}, {"byteLength", bytes}});
+  buffers.add(std::string(bytes, '\0'));
+  return true;
+}
 
 std::size_t makeUnit(json& root) {
   constexpr double kOff = 0.01;  // whole numbers of 8 bits are off by that

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
+#include "scene/gltf_buffers.h"
+
 namespace sunlit::scene {
 
 /// What was changed.
@@ -17,6 +19,10 @@ struct GltfMends {
 };
 
 GltfMends mendGltf(nlohmann::json& root);
+
+/// Gives accessors of shapes that are in no view, and so all of zeros (glTF 2.0, section 3.6.2.2), one of
+/// those. Whether there were any. Throws std::runtime_error with the number of one that is too large.
+bool giveZeros(nlohmann::json& root, GltfBuffers& buffers);
 
 /// Makes quaternions of nodes that are not of length 1 such ones, of no turn where they are zero: how many.
 std::size_t makeUnit(nlohmann::json& root);

@@ -1,4 +1,4 @@
-// Where the numbers of glTF files are: in addresses.
+// Where the numbers of glTF files are: in addresses, or nowhere.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -99,6 +99,27 @@ TEST_F(GltfData, OfPicturesMayBeEscapedToo) {
     ASSERT_EQ(scene.textures.size(), 1u);
     EXPECT_EQ(scene.textures[0].rgba[0], 200);
   }
+}
+
+// glTF 2.0, section 3.6.2.2: they are zeros, of any type.
+TEST_F(GltfData, ThatAreNowhereAreZeros) {
+  Parts parts;
+  parts.targets = R"(,"targets":[{"POSITION":3}])";
+  parts.attributes = R"(,"COLOR_0":4,"TEXCOORD_1":5)";
+  parts.accessors = R"(,{"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[0,0,0]},
+{"componentType":5121,"normalized":true,"count":4,"type":"VEC3"},{"componentType":5126,"count":4,"type":"VEC2"})";
+  const Scene scene = loaded(parts);
+  expectWhole(scene);
+  ASSERT_EQ(scene.meshes[0].colors.size(), 6u);  // each triangle has its own
+  for (const Eigen::Array3f& color : scene.meshes[0].colors) EXPECT_TRUE((color == 0.0f).all());
+}
+
+TEST_F(GltfData, ThatAreNowhereAreNoMoreThanAGibibyte) {
+  Parts parts;
+  parts.attributes = R"(,"COLOR_0":3)";
+  parts.accessors = R"(,{"componentType":5121,"normalized":true,"count":100000000,"type":"VEC3"})";
+  EXPECT_EQ(errorOf(write("t.gltf", gltf(parts))),
+            pathOf("t.gltf") + ": accessor 3 is in no view, so all of zeros, and of more than 1 GiB");
 }
 
 }  // namespace
