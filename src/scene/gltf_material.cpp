@@ -113,7 +113,8 @@ void GltfMaterials::nameTheRest(std::uint64_t triangles) const {
     const std::uint64_t told = trianglesOfScene(json_->root);
     if (told > triangles)
       builder_.warn("files have triangles of vertices that are not there, they are left out",
-                    std::to_string(told - triangles) + " in " + file_);
+                    std::to_string(told - triangles) + " in " + file_ +
+                        (usesDraco(json_->root) ? ", whose Draco data have other counts than it tells" : ""));
   } catch (const std::exception& error) {
     throw std::runtime_error(file_ + ": its scene, nodes and meshes: " + error.what());
   }
@@ -129,7 +130,7 @@ std::vector<std::string> GltfMaterials::unknown(const char* list) const {
   // Assimp reads the last one, or says that it was built without.
   static const std::set<std::string> known = {"KHR_texture_transform",   "EXT_texture_webp",
                                               "KHR_lights_punctual",     "KHR_mesh_quantization",
-                                              "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression"};
+                                              "EXT_mesh_gpu_instancing", kDraco};
   std::vector<std::string> unknown;
   const json& used = child(json_->root, list);
   for (const json& name : used.is_array() ? used : json::array()) {

@@ -48,6 +48,14 @@ std::uint64_t trianglesOf(const json& root, const json& primitive) {
 
 }  // namespace
 
+bool usesDraco(const json& root) {
+  for (const json& mesh : child(root, "meshes")) {
+    for (const json& primitive : child(mesh, "primitives"))
+      if (!extension(primitive, kDraco).empty()) return true;
+  }
+  return false;
+}
+
 std::uint64_t trianglesOfScene(const json& root) {
   const json& scenes = child(root, "scenes");
   const std::size_t scene = indexOf(root, "scene", 0);

@@ -12,6 +12,9 @@ namespace sunlit::scene {
 /// the file does not say it as glTF does.
 std::uint64_t trianglesOfScene(const nlohmann::json& root);
 
+/// Whether any primitive of `root` is packed by Draco.
+bool usesDraco(const nlohmann::json& root);
+
 /// The scenes of `file` but the one that is shown, each by its name. Throws as trianglesOfScene().
 std::vector<std::string> scenesNotShown(const nlohmann::json& root, const std::string& file);
 
