@@ -30,6 +30,17 @@ std::pair<std::size_t, std::size_t> placeInTag(const std::string& tag, const std
   return {std::string::npos, 0};
 }
 
+std::string changed(const std::string& text, const TextChanges& changes) {
+  std::string whole;
+  std::size_t copied = 0;
+  for (const auto& [at, change] : changes) {
+    if (at < copied) continue;
+    whole.append(text, copied, at - copied).append(change.second);
+    copied = at + change.first;
+  }
+  return whole.append(text, copied, std::string::npos);
+}
+
 std::string withoutHash(const std::string& address) {
   return address.compare(0, 1, "#") == 0 ? address.substr(1) : address;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,12 @@ void forEachTag(
 /// Where the value of an attribute stands in its tag, and how long it is; nowhere, and 0, where there is
 /// none.
 std::pair<std::size_t, std::size_t> placeInTag(const std::string& tag, const std::string& attribute);
+
+/// By their places in a text that stays as it is meanwhile: how much goes there, and what comes.
+using TextChanges = std::map<std::size_t, std::pair<std::size_t, std::string>>;
+
+/// `text` with them, but for those within what others take away.
+std::string changed(const std::string& text, const TextChanges& changes);
 
 /// Of an address within the file.
 std::string withoutHash(const std::string& address);

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <map>
 #include <set>
-#include <utility>
 
 #include "scene/collada_tags.h"
 
@@ -122,7 +120,7 @@ std::string withBareMaterials(const std::string& text) {
   if (effects == std::string::npos || materials == std::string::npos) return text;
   const std::set<std::string> known = knownMaterials(text);
   const std::string quoted = '"' + std::string(kBareMaterial) + '"';
-  std::map<std::size_t, std::pair<std::size_t, std::string>> changes;  // by place: how much goes, what comes
+  TextChanges changes;
   forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {
     if (kPrimitives.count(name) == 0 || known.count(valueInTag(tag, "material")) == 1) return;
     const auto [begin, length] = placeInTag(tag, "material");
@@ -139,13 +137,7 @@ std::string withBareMaterials(const std::string& text) {
                              "</profile_COMMON></effect>"};
   changes[materials] = {0, "<material id=" + quoted + " name=" + quoted + "><instance_effect url=\"#" +
                                effect + "\"/></material>"};
-  std::string mended;
-  std::size_t copied = 0;
-  for (const auto& [at, change] : changes) {
-    mended.append(text, copied, at - copied).append(change.second);
-    copied = at + change.first;
-  }
-  return mended.append(text, copied, std::string::npos);
+  return changed(text, changes);
 }
 
 std::string withCountedLines(const std::string& text) {

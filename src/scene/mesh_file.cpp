@@ -21,6 +21,7 @@
 #include "scene/collada_check.h"
 #include "scene/collada_effects.h"
 #include "scene/collada_lamps.h"
+#include "scene/collada_morphs.h"
 #include "scene/collada_sets.h"
 #include "scene/collada_text.h"
 #include "scene/color.h"
@@ -242,8 +243,11 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
 /// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended.
 ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text =
-      withCountedLines(withoutAnimations(utf8Of({std::istreambuf_iterator<char>(stream), {}}, file)));
+  const ColladaMorphs still =
+      withoutMorphs(withoutAnimations(utf8Of({std::istreambuf_iterator<char>(stream), {}}, file)));
+  for (const std::string& morph : still.names)
+    builder.warn("meshes have morphs, which are left out: they have their base shape", morph + " of " + file);
+  std::string text = withCountedLines(still.text);
   requireReadableCollada(text, file);
   text = withParameters(withKnownSets(text));
   ColladaEffects effects = effectsOf(text);
