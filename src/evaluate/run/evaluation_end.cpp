@@ -61,7 +61,7 @@ std::size_t Evaluation::State::nameAbsentPoses() {
   std::size_t absent = 0;
   for (std::size_t k = 0; k < options_.poses.size(); ++k) {
     const std::int64_t pose = options_.poses.at(k);
-    if (completed_.count(pose) != 0) continue;
+    if (completed_.has(pose)) continue;
     ++absent;
     report({"absent", pose, std::nullopt, "", "no image of this pose came"});
   }

@@ -265,8 +265,7 @@ bool Evaluation::State::hasForgottenObservations(const std::string& folder) cons
 // All poses are here, and there are no others, so that no other run will ask for what was observed.
 bool Evaluation::State::isWholePath() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::size_t expected = options_.poses.size();
-  return options_.is_whole_path && expected > 0 && completed_.size() - unexpected_poses_ >= expected;
+  return options_.is_whole_path && completed_.isWhole();
 }
 
 // Evaluated pictures of query streams that no row tells of.

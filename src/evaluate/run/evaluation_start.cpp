@@ -154,6 +154,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
       verified_layout_(layoutOf(options_, verifiedDetectors(options_))),
       poses_(options_.frame_rate, options_.stamp_start_ns, options_.poses, !thinnedPair(options_)),
       sets_(options_.streams.size()),
+      completed_(options_.poses),
       queue_(kPosesAtOnce) {
   for (const PairSpec& pair : options_.pairs) {
     const std::string key = "a name in pairs";
@@ -230,7 +231,7 @@ void Evaluation::State::requireMergeable(const std::string& folder) const {
 // What single features and pictures a whole run saw it keeps in sums alone, to which those of further poses
 // cannot be added.
 void Evaluation::State::requireNothingForgotten() const {
-  const std::size_t wanted = options_.poses.size(), whole = completed_.size() - unexpected_poses_;
+  const std::size_t wanted = options_.poses.size(), whole = completed_.expected();
   if (!has_forgotten_ || wanted <= whole) return;
   throw std::invalid_argument(
       "output_dir " + options_.output_dir + " holds a run of " + std::to_string(whole) +
@@ -256,7 +257,7 @@ void Evaluation::State::takeUpEarlierRuns() {
     for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
       is_whole = is_whole && (!isWanted(p, record.pose) || held_.count({record.pose, p}) != 0);
     }
-    if (is_whole) markCompleted(record.pose);
+    if (is_whole) completed_.takeUp(record.pose);
   }
   requireNothingForgotten();
   writeRunFile(file("run.yaml"), options_, nullptr, nullptr);  // not before: what is refused changes nothing

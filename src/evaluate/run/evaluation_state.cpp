@@ -347,13 +347,9 @@ std::vector<std::size_t> Evaluation::State::keptPictures(const StampSet& set, st
   return kept;
 }
 
-void Evaluation::State::markCompleted(std::int64_t pose) {
-  if (completed_.insert(pose).second && !options_.poses.holds(pose)) ++unexpected_poses_;
-}
-
 void Evaluation::State::complete(std::int64_t pose) {
-  markCompleted(pose);
-  if (callbacks_.progress) callbacks_.progress(completed_.size());
+  completed_.add(pose);
+  if (callbacks_.progress) callbacks_.progress(completed_.passed());
 }
 
 Counts Evaluation::State::counts() const {
@@ -363,7 +359,8 @@ Counts Evaluation::State::counts() const {
     counts.streams[s].only_stamp_ns = sets_.onlyStamp(s);
   counts.completed_poses = completed_.size();
   counts.waiting_images = sets_.waitingImages();
-  counts.unexpected_poses = unexpected_poses_;
+  counts.passed_poses = completed_.passed();
+  counts.unexpected_poses = completed_.unexpected();
   counts.queued_poses = under_way_.size();
   counts.bytes = sets_.reservedBytes() + queued_bytes_ + truthBytes();
   if (const auto oldest = sets_.oldest()) {
@@ -380,8 +377,7 @@ Counts Evaluation::State::counts() const {
 bool Evaluation::State::isComplete() const {
   queue_.rethrow();
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::size_t expected = options_.poses.size();
-  return expected > 0 && completed_.size() - unexpected_poses_ >= expected;
+  return completed_.isWhole();
 }
 
 }  // namespace sunlit::evaluate

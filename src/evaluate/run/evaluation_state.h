@@ -14,6 +14,7 @@
 
 #include "evaluate/files/files.h"
 #include "evaluate/files/picture_writer.h"
+#include "evaluate/run/accounted_poses.h"
 #include "evaluate/run/extreme_poses.h"
 #include "evaluate/run/observer.h"
 #include "evaluate/run/one_place.h"
@@ -140,7 +141,6 @@ class Evaluation::State {
   void settleRecords();
   void writeRecords() const;
   void giveUp(const Work& work);
-  void markCompleted(std::int64_t pose);
   void complete(std::int64_t pose);
   void report(const Problem& problem) { problems_->add(problem); }
   std::optional<std::int64_t> poseOf(const Problem& problem) const;
@@ -171,9 +171,8 @@ class Evaluation::State {
   bool has_forgotten_ = false;            // single features or observations of what was taken up
   StampsOfPairs held_;                    // what earlier runs left
   StampsOfPairs taken_;                   // the stamp that counts of those come
-  std::set<std::int64_t> completed_;      // poses
-  std::size_t unexpected_poses_ = 0;      // of them
-  std::size_t queued_bytes_ = 0;          // of images in queue_
+  AccountedPoses completed_;
+  std::size_t queued_bytes_ = 0;  // of images in queue_
   bool is_finished_ = false;
   std::atomic<bool> is_broken_off_{false};
   StopToken stop_{[this] { return is_broken_off_.load(); }};

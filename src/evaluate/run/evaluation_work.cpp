@@ -144,12 +144,12 @@ void Evaluation::State::tell(const Work& work, const std::vector<PairRecord>& re
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   queued_bytes_ -= work.bytes;
-  if (callbacks_.progress) callbacks_.progress(completed_.size());
+  if (callbacks_.progress) callbacks_.progress(completed_.passed());
 }
 
 // From here on the work is accounted for.
 void Evaluation::State::settle(const Work& work) {
-  markCompleted(work.pose);
+  completed_.add(work.pose);
   under_way_.erase(work.stamp_ns);
 }
 
@@ -161,7 +161,7 @@ void Evaluation::State::giveUp(const Work& work) {
   }
   settle(work);
   queued_bytes_ -= work.bytes;
-  if (callbacks_.progress) callbacks_.progress(completed_.size());
+  if (callbacks_.progress) callbacks_.progress(completed_.passed());
 }
 
 // The i-th pair of `work`. None where there is nothing to keep: the comparison failed, another stamp

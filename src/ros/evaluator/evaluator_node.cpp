@@ -69,7 +69,7 @@ EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
   matches_image_ = private_node.advertise<sensor_msgs::Image>(topics::kMatchesImage, 2);
 
   evaluate::EvaluationCallbacks callbacks;
-  callbacks.progress = [this](std::size_t completed) { publishProgress(completed); };
+  callbacks.progress = [this](std::size_t passed) { publishProgress(passed); };
   callbacks.note = [](const std::string& line) { ROS_INFO("%s", line.c_str()); };
   callbacks.pair_done = [this](const evaluate::PairRecord& record, const cv::Mat& a, const cv::Mat& b) {
     onPairDone(record, a, b);
@@ -78,7 +78,7 @@ EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
 
   intake_ = std::make_unique<ImageIntake>(node, options.intake, *evaluation_);
   // Not before it listens: who waits for our progress begins to send.
-  publishProgress(evaluation_->counts().completed_poses);
+  publishProgress(evaluation_->counts().passed_poses);
   diagnostics_ = std::make_unique<EvaluatorDiagnostics>(node, private_node, *evaluation_, *intake_);
   finish_ = private_node.advertiseService("finish", &EvaluatorNode::onFinish, this);
 }
@@ -86,11 +86,11 @@ EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
 EvaluatorNode::~EvaluatorNode() = default;
 
 // From several threads, of which one may be overtaken; it never falls.
-void EvaluatorNode::publishProgress(std::size_t completed) {
+void EvaluatorNode::publishProgress(std::size_t passed) {
   const std::lock_guard<std::mutex> lock(progress_mutex_);
-  completed_ = std::max(completed_, completed);
+  passed_ = std::max(passed_, passed);
   std_msgs::UInt32 message;
-  message.data = static_cast<std::uint32_t>(completed_);
+  message.data = static_cast<std::uint32_t>(passed_);
   progress_.publish(message);
 }
 

@@ -32,7 +32,7 @@ class EvaluatorNode {
   int run();
 
  private:
-  void publishProgress(std::size_t completed);
+  void publishProgress(std::size_t passed);
   void onPairDone(const evaluate::PairRecord& record, const cv::Mat& a, const cv::Mat& b);
   bool onFinish(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool isIdle() const;
@@ -49,7 +49,7 @@ class EvaluatorNode {
   ros::Publisher summary_;
   ros::Publisher progress_;
   std::mutex progress_mutex_;
-  std::size_t completed_ = 0;  // as told
+  std::size_t passed_ = 0;  // as told
   ros::Publisher matches_image_;
   LocalisationOutput localisation_;
   ActivityOutput activity_;

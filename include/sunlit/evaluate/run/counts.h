@@ -51,12 +51,13 @@ struct PairCounts {
 struct Counts {
   std::vector<StreamCounts> streams;  ///< in the order of the options
   std::vector<PairCounts> pairs;
-  std::size_t completed_poses = 0;           ///< all their pairs are accounted for; unexpected ones included
-  std::size_t unexpected_poses = 0;          ///< of them: not among those expected
-  std::size_t waiting_images = 0;            ///< for a partner
-  std::size_t queued_poses = 0;              ///< whole, but not compared yet
-  std::size_t after_end = 0;                 ///< images that came after finish(), and were left out
-  std::size_t bytes = 0;                     ///< of what waits, as the memory limit counts them
+  std::size_t completed_poses = 0;   ///< all their pairs are accounted for; unexpected ones included
+  std::size_t passed_poses = 0;      ///< of them: that a sender may count as done, see EvaluationCallbacks
+  std::size_t unexpected_poses = 0;  ///< of them: not among those expected
+  std::size_t waiting_images = 0;    ///< for a partner
+  std::size_t queued_poses = 0;      ///< whole, but not compared yet
+  std::size_t after_end = 0;         ///< images that came after finish(), and were left out
+  std::size_t bytes = 0;             ///< of what waits, as the memory limit counts them
   std::vector<std::size_t> awaited_streams;  ///< that the oldest waiting stamp lacks
   bool awaits_truth = false;  ///< it has all streams, but lacks the pose, depth or camera to localise by
 };

@@ -37,9 +37,11 @@ struct Outcome {
 /// Called from the threads that add images and from workers. Each of them is called one at a time, but one
 /// may be called while another still runs, and `pair_done` and `progress` even after a run was broken off,
 /// until the Evaluation is gone. `progress` and `note` must not call it back: they are told under its lock.
+/// `progress` is for senders that keep pace: how many poses they may count as done. Of those that an earlier
+/// run left it counts none beyond the first expected pose that is not accounted for.
 struct EvaluationCallbacks {
   std::function<void(const PairRecord& record, const cv::Mat& a, const cv::Mat& b)> pair_done;
-  std::function<void(std::size_t completed_poses)> progress;
+  std::function<void(std::size_t passed_poses)> progress;
   std::function<void(const std::string& line)> note;  ///< something a person should read
 };
 
