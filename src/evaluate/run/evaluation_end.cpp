@@ -78,6 +78,7 @@ std::optional<std::int64_t> Evaluation::State::poseOf(const Problem& problem) co
 bool Evaluation::State::isMended(const Problem& problem, const StampsOfPairs& evaluated) const {
   const std::optional<std::int64_t> pose = poseOf(problem);
   if (!pose || problem.kind == "duplicate") return false;
+  if (problem.kind == "absent" && completed_.has(*pose)) return true;  // also where nothing of it is compared
   const bool is_left_out = problem.kind == kLeftOutBefore;
   const bool is_of_image = problem.kind == "undecodable" || problem.kind == "late";
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {

@@ -240,6 +240,34 @@ void Evaluation::State::requireNothingForgotten() const {
       std::to_string(wanted) + ": choose another output_dir, or poses: " + std::to_string(whole));
 }
 
+// Whether earlier runs evaluated every pair that is wanted of it.
+bool Evaluation::State::isHeldWhole(std::int64_t pose) const {
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    if (isWanted(p, pose) && held_.count({pose, p}) == 0) return false;
+  }
+  return true;
+}
+
+// Of a pose of which no pair is wanted there is no record. Earlier runs came past those before the last pose
+// that they evaluated, and whoever goes on from what was evaluated begins at the first pose after it that
+// lacks something; where nothing was evaluated, it begins with the first of all.
+void Evaluation::State::takeUpPoses() {
+  for (const PairRecord& record : records_) {
+    if (isHeldWhole(record.pose)) completed_.takeUp(record.pose);
+  }
+  const auto last = std::max_element(records_.begin(), records_.end(),
+                                     [](const auto& a, const auto& b) { return a.pose < b.pose; });
+  if (last == records_.end()) return;
+  for (std::size_t k = 0; k < options_.poses.size(); ++k) {
+    const std::int64_t pose = options_.poses.at(k);
+    if (isHeldWhole(pose)) {
+      completed_.takeUp(pose);
+    } else if (pose > last->pose) {
+      return;
+    }
+  }
+}
+
 void Evaluation::State::takeUpEarlierRuns() {
   record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
   mendLostFile(file(kLostFile));
@@ -252,13 +280,7 @@ void Evaluation::State::takeUpEarlierRuns() {
   }
   settleTakenUp();
   rankAll();
-  for (const PairRecord& record : records_) {
-    bool is_whole = true;
-    for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
-      is_whole = is_whole && (!isWanted(p, record.pose) || held_.count({record.pose, p}) != 0);
-    }
-    if (is_whole) completed_.takeUp(record.pose);
-  }
+  takeUpPoses();
   requireNothingForgotten();
   writeRunFile(file("run.yaml"), options_, nullptr, nullptr);  // not before: what is refused changes nothing
   if (left.torn + left.asked_again > 0 || !options_.merge.empty()) writeRecords();

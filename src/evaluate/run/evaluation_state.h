@@ -70,6 +70,8 @@ class Evaluation::State {
   void tellTakenUp(const LeftLines& left) const;
   void noteLeftOutBefore(const std::string& folder);
   void settleTakenUp();
+  bool isHeldWhole(std::int64_t pose) const;
+  void takeUpPoses();
   std::size_t nameAbsentPoses();
   bool isWanted(std::size_t pair, std::int64_t pose) const;
   bool isHeld(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) const;
