@@ -62,6 +62,16 @@ def _under_other_suns(folder):
     return {(int(fields[1]), fields[3]) for fields in problems if len(fields) > 4 and fields[1].isdecimal() and len(fields[1]) < 19}
 
 
+def evaluated_beyond(folder, poses):
+    """Why no run of so many poses can be made in this folder, since some beyond them are evaluated; empty where none are."""
+    evaluated = {pose for pose, _, _ in _rows(folder, "frames.csv") or ()}
+    beyond = {pose for pose in evaluated if pose >= poses}
+    if not beyond:
+        return ""
+    return (f"{folder} holds {len(evaluated)} evaluated poses, and {len(beyond)} of them are not among the {poses} of this path: "
+            f"choose another output, or poses:={max(beyond) + 1} at least")
+
+
 def first_not_evaluated(folder, pairs, differences, features="{}"):
     """The first pose that frames.csv, and verified.csv where matches are verified, do not have whole, or under another sun; 0 where
     there is none.

@@ -66,6 +66,7 @@ class Evaluation::State {
   void takeUpEarlierRuns();
   void requireMergeable(const std::string& folder) const;
   void requireNothingForgotten() const;
+  void requireNothingBeside() const;
   LeftLines takeUp(const std::string& folder);
   void tellTakenUp(const LeftLines& left) const;
   void noteLeftOutBefore(const std::string& folder);

@@ -141,6 +141,14 @@ class ExperimentArguments(unittest.TestCase):
                 self.assertIn("sunlit: ", said)
                 self.assertIn(words, said)
 
+    def test_fewer_poses_than_the_folder_holds_are_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "frames.csv"), "w", encoding="utf-8") as frames:
+                frames.write("pose,stamp,a,b,difference,value\n7,1000.7,h04,h12,orb,0.5\n")
+            said = self.refused_plan(os.path.join(folder, "plan"), output=folder, poses="5")
+            self.assertEqual(os.listdir(folder), ["frames.csv"])
+            self.assertIn("1 of them are not among the 5 of this path", said)
+
     def test_beside_another_experiment_on_the_same_master_it_is_refused(self):
         """Both would be broken off."""
         with xmlrpc.server.SimpleXMLRPCServer(("localhost", 0), logRequests=False) as master, tempfile.TemporaryDirectory() as folder:

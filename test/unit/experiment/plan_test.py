@@ -536,6 +536,19 @@ class Plan(unittest.TestCase):
                 verified.writelines("0,1000.0,%s,%s,orb,3\n" % pair for pair in evaluated[0])
             self.assertEqual(begins("all"), 1)
 
+    def test_an_earlier_run_is_not_taken_up_with_fewer_poses_than_it_evaluated(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(earlier_run.evaluated_beyond(folder, 3), "")
+            with open(os.path.join(folder, "frames.csv"), "w") as frames:
+                frames.write("pose,stamp,a,b,difference,value\n")
+                frames.writelines("%d,1000.0,h04,h12,%s,0.5\n" % (pose, difference) for pose in (0, 1, 2, 5)
+                                  for difference in ("orb", "boolean_rgb"))
+                frames.write("9,1000.9,h04,h1")  # torn by a crash
+            self.assertEqual(earlier_run.evaluated_beyond(folder, 6), "")
+            self.assertEqual(earlier_run.evaluated_beyond(folder, 2),
+                             folder + " holds 4 evaluated poses, and 2 of them are not among the 2 of this path: choose another "
+                             "output, or poses:=6 at least")
+
     def test_files_of_an_earlier_run_need_not_be_found_from_a_folder_that_was_deleted(self):
         before = {"world": "mine.world", "camera": "640x480, 60.0 deg, 1.0 m"}
         self.addCleanup(os.chdir, os.getcwd())

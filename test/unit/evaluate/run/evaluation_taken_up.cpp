@@ -3,6 +3,7 @@
 
 #include <tuple>
 
+#include "support/message_of.h"
 #include "unit/evaluate/run/small_evaluation.h"
 
 namespace sunlit::evaluate {
@@ -41,6 +42,31 @@ TEST(TakenUpRun, TellsSendersToGoOnAsFarAsItIsWithoutAHole) {
   }
   EXPECT_TRUE(evaluation.isComplete());
   EXPECT_TRUE(evaluation.finish().isWhole());
+}
+
+TEST(TakenUpRun, IsRefusedWhereItsWholePathHasFewerPosesThanWereEvaluated) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = experimentOf(folder, 9);
+  options.is_whole_path = true;
+  evaluate(options, {0, 1, 2, 3, 4, 8});
+  const std::string run = contentOf(folder.file("out/run.yaml"));
+  options.poses.count = 4;
+  const auto refusal = [](const EvaluationOptions& asked) {
+    return messageOf([&] { Evaluation(asked, {}); });
+  };
+  EXPECT_EQ(refusal(options), "output_dir " + folder.file("out") +
+                                  " holds 6 evaluated poses, and 2 of them are not among the 4 of this path: "
+                                  "choose another output_dir, or as many poses as before");
+  EXPECT_EQ(contentOf(folder.file("out/run.yaml")), run) << "what is refused changes nothing";
+  EvaluationOptions merged = options;
+  merged.output_dir = folder.file("merged");
+  merged.merge = {folder.file("out")};
+  EXPECT_NE(refusal(merged).find(", with what is merged, holds 6"), std::string::npos) << refusal(merged);
+  options.poses.count = 9;
+  EXPECT_EQ(refusal(options), "");
+  options.poses.count = 4;
+  options.is_whole_path = false;
+  EXPECT_EQ(refusal(options), "") << "a share may have others beside it";
 }
 
 /// Of one hour: all that is compared is every tenth picture of it with that of another renderer.
