@@ -8,8 +8,6 @@
 namespace sunlit::evaluate {
 namespace {
 
-constexpr std::int64_t kSampleStride = 200;  // of a path of unknown length
-
 bool hasBoth(const StampSet& set, const ImagePair& pair) {
   return set.streams[pair.first].has_come && set.streams[pair.second].has_come;
 }
@@ -64,6 +62,7 @@ void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival a
     ++counts.out_of_order;
     report({"out_of_order", pose, stamp_ns, name, "came after a later image; used all the same"});
   }
+  const cv::Mat rgb = arrival.rgb;
   switch (sets_.add(stream, stamp_ns, std::move(arrival))) {
     case StampSets::Outcome::kKept:
       break;
@@ -76,6 +75,7 @@ void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival a
               "an image of this stamp had come before that could not be used; this one counts"});
       break;
     case StampSets::Outcome::kClosed:
+      if (pose) keepLate(stream, stamp_ns, *pose, rgb);
       return addLate(stream, stamp_ns, pose);
   }
   if (observer_ && observer_->truth().cameras(stream).noteImage(stamp_ns))
@@ -320,31 +320,18 @@ void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t>
     complete(*pose);
     return;
   }
+  handOver(std::move(work), set);
+}
+
+void Evaluation::State::handOver(Work work, const StampSet& set) {
   for (const Arrival& arrival : set.streams) {
     work.images.push_back(arrival.rgb);
     work.bytes += bytesOf(arrival.rgb);
   }
   queued_bytes_ += work.bytes;
   const auto shared = std::make_shared<const Work>(std::move(work));
-  under_way_.emplace(stamp_ns, shared);
+  under_way_.emplace(shared->stamp_ns, shared);
   queue_.add([this, shared] { evaluate(*shared); });
-}
-
-bool Evaluation::State::isSample(std::int64_t pose) const {
-  return options_.poses.size() > 0 ? sampled_.count(pose) != 0 : pose % kSampleStride == 0;
-}
-
-std::vector<std::size_t> Evaluation::State::keptPictures(const StampSet& set, std::int64_t pose,
-                                                         bool is_evaluated) {
-  std::vector<std::size_t> kept;
-  if (!pictures_ || (options_.images == KeptImages::kSamples && !isSample(pose))) return kept;
-  const bool is_of_two = !places_.fault(set.stamp_ns).empty();
-  for (std::size_t s = 0; s < set.streams.size(); ++s) {
-    const bool is_left_out = suns_.isOther(options_.streams[s], set.stamp_ns) || (is_of_two && !is_evaluated);
-    if (set.streams[s].rgb.empty() || is_left_out) continue;
-    if (pictures_->claim(options_.streams[s], pose, set.stamp_ns, is_evaluated)) kept.push_back(s);
-  }
-  return kept;
 }
 
 void Evaluation::State::complete(std::int64_t pose) {

@@ -100,7 +100,9 @@ class Evaluation::State {
   bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
   bool isSample(std::int64_t pose) const;
   std::vector<std::size_t> keptPictures(const StampSet& set, std::int64_t pose, bool is_evaluated);
+  void keepLate(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose, const cv::Mat& rgb);
   void writePictures(const Work& work);
+  void handOver(Work work, const StampSet& set);
   void evaluate(const Work& work);
   void evaluatePairs(const Work& work);
   Values noValues(const Work& work) const;
@@ -180,8 +182,8 @@ class Evaluation::State {
   std::atomic<bool> is_broken_off_{false};
   StopToken stop_{[this] { return is_broken_off_.load(); }};
   std::shared_mutex writing_;  // shared by workers that write, or keep rows
-  std::map<std::int64_t, std::shared_ptr<const Work>> under_way_;  // by stamp: in queue_, and not kept yet
-  std::set<std::int64_t> sampled_;                                 // poses whose images are kept
+  std::multimap<std::int64_t, std::shared_ptr<const Work>> under_way_;  // by stamp: in queue_, not kept yet
+  std::set<std::int64_t> sampled_;                                      // poses whose images are kept
   std::unique_ptr<RecordFiles> record_files_;
   std::unique_ptr<ProblemFile> problems_;
   std::unique_ptr<PictureWriter> pictures_;

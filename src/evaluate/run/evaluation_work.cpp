@@ -1,6 +1,7 @@
 // How what is whole is compared, and what was found is kept.
 #include <tbb/parallel_invoke.h>
 
+#include <algorithm>
 #include <exception>
 #include <optional>
 #include <utility>
@@ -22,14 +23,6 @@ std::optional<std::string> faultOf(const std::exception_ptr& thrown) {
 }
 
 }  // namespace
-
-void Evaluation::State::writePictures(const Work& work) {
-  for (const std::size_t s : work.pictures) {
-    const std::shared_lock<std::shared_mutex> writing(writing_);
-    if (is_broken_off_) return;
-    pictures_->write(options_.streams[s], work.pose, work.stamp_ns, work.images[s]);
-  }
-}
 
 void Evaluation::State::waitForRoom(std::size_t queued_poses) const {
   queue_.waitForAtMost(queued_poses);
@@ -150,7 +143,9 @@ void Evaluation::State::tell(const Work& work, const std::vector<PairRecord>& re
 // From here on the work is accounted for.
 void Evaluation::State::settle(const Work& work) {
   completed_.add(work.pose);
-  under_way_.erase(work.stamp_ns);
+  const auto [first, last] = under_way_.equal_range(work.stamp_ns);
+  const auto found = std::find_if(first, last, [&](const auto& item) { return item.second.get() == &work; });
+  if (found != last) under_way_.erase(found);
 }
 
 void Evaluation::State::giveUp(const Work& work) {

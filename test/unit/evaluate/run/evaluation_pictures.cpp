@@ -61,5 +61,32 @@ TEST(Pictures, ThatCannotBeWrittenStopTheRunBeforeItsRows) {
   }
 }
 
+// Of a pose of which nothing is compared the first image is all that is waited for.
+TEST(Pictures, OfPosesOfWhichNothingIsComparedAreKeptOfAllStreams) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = allPictures(folder);
+  options.frame_rate = 10.0;
+  options.stamp_start_ns = stampOf(0);
+  options.poses.count = 4;
+  options.pairs = {{"h04", "h12", 2}, {"h04", "h20", 2}};
+  Evaluation evaluation(options, {});
+  for (int pose = 0; pose < 6; ++pose) feedPose(evaluation, pose);
+  evaluation.waitForRoom(0);
+  EXPECT_EQ(evaluation.counts().queued_poses, 0u);
+  EXPECT_EQ(evaluation.counts().bytes, 0u);
+  const Outcome outcome = evaluation.finish();
+  for (const StreamCounts& stream : outcome.counts.streams) {
+    EXPECT_EQ(stream.late, 0u);
+    EXPECT_EQ(stream.unexpected, 2u);
+  }
+  for (const std::string stream : {"h04", "h12", "h20"}) {
+    for (const char pose : {'0', '1', '2', '3', '4', '5'}) {
+      EXPECT_EQ(std::filesystem::exists(folder.file("out/images/" + stream + "/00000" + pose + ".png")),
+                pose < '4')
+          << stream << " " << pose;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sunlit::evaluate
