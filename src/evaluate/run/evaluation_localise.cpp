@@ -167,7 +167,7 @@ void Evaluation::State::observeSet(const StampSet& set, Work& work) {
   if (!observer_) return;
   work.truth = observer_->truth().take(set.stamp_ns);
   work.observed.assign(set.streams.size(), 0);
-  const std::vector<char> needed = neededStreams(work.pose);
+  const std::vector<char> needed = neededStreams(set.stamp_ns, work.pose);
   for (std::size_t s = 0; s < set.streams.size(); ++s) {
     const bool is_needed = needed[s] != 0 && !suns_.isOther(options_.streams[s], set.stamp_ns);
     if (set.streams[s].rgb.empty() || !is_needed) continue;

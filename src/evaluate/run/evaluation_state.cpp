@@ -34,11 +34,9 @@ bool Evaluation::State::isAskedFor(std::size_t stream, std::int64_t stamp_ns, st
   return false;
 }
 
-std::vector<char> Evaluation::State::neededStreams(std::int64_t pose) const {
+std::vector<char> Evaluation::State::neededStreams(std::int64_t stamp_ns, std::int64_t pose) const {
   std::vector<char> is_needed(options_.streams.size(), 0);
-  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
-    if (isWanted(p, pose)) is_needed[pair_streams_[p].first] = is_needed[pair_streams_[p].second] = 1;
-  }
+  for (std::size_t s = 0; s < is_needed.size(); ++s) is_needed[s] = isAskedFor(s, stamp_ns, pose) ? 1 : 0;
   return is_needed;
 }
 
@@ -76,7 +74,8 @@ void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival a
       break;
     case StampSets::Outcome::kClosed:
       if (pose) keepLate(stream, stamp_ns, *pose, rgb);
-      return addLate(stream, stamp_ns, pose);
+      addLate(stream, stamp_ns, pose);
+      break;
   }
   if (observer_ && observer_->truth().cameras(stream).noteImage(stamp_ns))
     closeWhole(std::numeric_limits<std::int64_t>::max());
@@ -87,7 +86,14 @@ void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival a
 // After its set was closed.
 void Evaluation::State::addLate(std::size_t stream, std::int64_t stamp_ns, std::optional<std::int64_t> pose) {
   if (pose && !options_.poses.holds(*pose)) return turnAway(stream, stamp_ns, *pose);
-  if (pose && neededStreams(*pose)[stream] == 0) return;
+  // Of pairs that an earlier run evaluated nobody waits for the second image: here it is told from one whose
+  // pose another stamp has already.
+  for (std::size_t p = 0; pose && p < options_.pairs.size(); ++p) {
+    const auto& [a, b] = pair_streams_[p];
+    const bool is_second = (a == stream || b == stream) && sets_.hasCome(a == stream ? b : a, stamp_ns);
+    if (is_second && isWanted(p, *pose) && isHeld(stamp_ns, *pose, p)) takes(stamp_ns, *pose, p);
+  }
+  if (pose && !isAskedFor(stream, stamp_ns, *pose)) return;
   ++counts_.streams[stream].late;
   report(
       {"late", pose, stamp_ns, options_.streams[stream], "its stamp had been given up to bound the memory"});
@@ -189,7 +195,7 @@ void Evaluation::State::add(const PlaceRecord& place) {
 }
 
 bool Evaluation::State::hasAllImages(const StampSet& set, std::int64_t pose) const {
-  const std::vector<char> is_needed = neededStreams(pose);
+  const std::vector<char> is_needed = neededStreams(set.stamp_ns, pose);
   for (std::size_t s = 0; s < is_needed.size(); ++s) {
     if (is_needed[s] && !set.streams[s].has_come) return false;
   }
@@ -197,7 +203,8 @@ bool Evaluation::State::hasAllImages(const StampSet& set, std::int64_t pose) con
 }
 
 bool Evaluation::State::isWhole(const StampSet& set, std::int64_t pose) const {
-  return hasAllImages(set, pose) && (!observer_ || observer_->isReady(set.stamp_ns, neededStreams(pose)));
+  return hasAllImages(set, pose) &&
+         (!observer_ || observer_->isReady(set.stamp_ns, neededStreams(set.stamp_ns, pose)));
 }
 
 void Evaluation::State::closeIfWhole(std::int64_t stamp_ns) {

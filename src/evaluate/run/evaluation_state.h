@@ -77,7 +77,7 @@ class Evaluation::State {
   bool isWanted(std::size_t pair, std::int64_t pose) const;
   bool isHeld(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) const;
   bool isAskedFor(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose) const;
-  std::vector<char> neededStreams(std::int64_t pose) const;
+  std::vector<char> neededStreams(std::int64_t stamp_ns, std::int64_t pose) const;
   bool hasAllImages(const StampSet& set, std::int64_t pose) const;
   bool isWhole(const StampSet& set, std::int64_t pose) const;
   void closeIfWhole(std::int64_t stamp_ns);

@@ -35,7 +35,7 @@ class Observer {
 
   GroundTruth& truth() { return truth_; }
   /// Pose and depth of the stamp are here, and its cameras of those streams that are `needed`, or will not
-  /// come.
+  /// come; or none of them is needed.
   bool isReady(std::int64_t stamp_ns, const std::vector<char>& needed);
   /// Why a picture of this size can be no key frame or query; empty where it can, or need not.
   std::string faultOf(std::size_t stream, const GroundTruth::View& truth, const cv::Size& size) const;

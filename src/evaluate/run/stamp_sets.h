@@ -46,6 +46,10 @@ class StampSets {
   bool isOutOfOrder(std::size_t stream, std::int64_t stamp_ns) const;
   /// That all images of a stream have, where it is one alone.
   std::optional<std::int64_t> onlyStamp(std::size_t stream) const;
+  /// An image of that stream did, usable or not, whatever became of its set.
+  bool hasCome(std::size_t stream, std::int64_t stamp_ns) const {
+    return seen_.at(stream).count(stamp_ns) != 0;
+  }
   bool isTaken(std::int64_t stamp_ns) const { return taken_.count(stamp_ns) != 0; }
   const StampSet* find(std::int64_t stamp_ns) const;
   StampSet take(std::int64_t stamp_ns);

@@ -111,6 +111,41 @@ TEST(MemoryLimit, KeepsRoomForPartners) {
   EXPECT_EQ(evaluation.finish().counts.streams[0].dropped, 1u);
 }
 
+// As a renderer sends poses again that no bag holds, and another none of them.
+TEST(MemoryLimit, KeepsNoRoomForWhatAnEarlierRunEvaluated) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = optionsFor(folder);
+  options.images = KeptImages::kNone;
+  options.memory_limit_bytes = 3 * kSetBytes;
+  options.frame_rate = 10.0;
+  options.stamp_start_ns = stampOf(0);
+  options.pairs = {{"h04", "h12", 1}, {"h04", "h20", 2}};
+  {
+    Evaluation killed(options, {});
+    for (int pose = 0; pose < 4; ++pose) {
+      feedPose(killed, pose);
+      killed.waitForRoom(0);
+    }
+  }
+  Held held;
+  Evaluation evaluation(options, held.callbacks());
+  feedPose(evaluation, 4);
+  held.waitUntilReached();
+  for (int pose = 0; pose < 4; ++pose) evaluation.addImage(0, stampOf(pose), picture(pose, 0));
+  EXPECT_EQ(evaluation.counts().waiting_images, 0u);
+  for (int pose = 5; pose < 7; ++pose) evaluation.addImage(0, stampOf(pose), picture(pose, 0));
+  for (int pose = 5; pose < 7; ++pose) {
+    for (std::size_t s = 1; s < 3; ++s) evaluation.addImage(s, stampOf(pose), picture(pose, s));
+  }
+  for (int pose = 0; pose < 4; ++pose) evaluation.addImage(1, stampOf(pose), picture(pose, 1));
+  held.letGo();
+  const Outcome outcome = evaluation.finish();
+  EXPECT_TRUE(outcome.isWhole());
+  EXPECT_EQ(outcome.counts.pairs[0].evaluated, 3u);
+  EXPECT_EQ(outcome.counts.pairs[0].resumed, 4u);
+  for (const StreamCounts& stream : outcome.counts.streams) EXPECT_EQ(stream.late, 0u);
+}
+
 TEST(Evaluation, WritesAllFilesAtOnceWhereItIsBrokenOff) {
   const TemporaryFolder folder;
   Held held;
