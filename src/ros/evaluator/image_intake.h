@@ -57,7 +57,8 @@ class ImageIntake {
   double secondsWithoutImage() const;
   /// Those of which nobody sends images and none has come, in words; empty: none of them.
   std::string unheardStreams() const;
-  /// Topics of true poses, depths and cameras that nobody sends, in words; empty: none of those that are needed.
+  /// Topics of true poses, depths and cameras that nobody sends, in words; empty: none of those that are
+  /// needed.
   std::string unheardTruth() const;
   /// Of the latest true pose; empty: none has come.
   std::string frameOfPoses() const;

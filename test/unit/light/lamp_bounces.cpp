@@ -5,8 +5,8 @@
 
 #include <numeric>
 
-#include "night_scene.h"
 #include "light/lamps/lamp_sets.h"
+#include "night_scene.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
