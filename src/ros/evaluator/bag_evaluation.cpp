@@ -12,6 +12,7 @@
 
 #include "ros/conversions/evaluation.h"
 #include "ros/conversions/received_images.h"
+#include "ros/evaluator/bag_cameras.h"
 #include "ros/evaluator/bag_message.h"
 #include "ros/evaluator/bag_topics.h"
 #include "ros/evaluator/folder_lock.h"
@@ -60,6 +61,13 @@ void requireToCountBy(const evaluate::EvaluationOptions& options, const std::str
                            topicsInWords(held));
 }
 
+std::vector<std::string> camerasOf(const evaluate::EvaluationOptions& options, const std::string& root) {
+  std::vector<std::string> topics;
+  for (const std::string& stream : options.streams)
+    topics.push_back(topicOf(root, stream, topics::kCameraInfo));
+  return topics;
+}
+
 void warnOfNothingIn(const std::string& bag, const std::vector<std::string>& wanted) {
   const std::set<std::string> held = topicsIn({bag});
   if (std::any_of(wanted.begin(), wanted.end(),
@@ -76,6 +84,7 @@ class BagSource {
     const std::set<std::string> held = topicsIn(options.bags);
     requireToLocaliseBy(options.evaluation, root, held);
     requireToCountBy(options.evaluation, root, held);
+    requireOneCamera(options.bags, camerasOf(options.evaluation, root));
     place_topic_ = root + topics::kPose;
     std::vector<std::string> wanted = {place_topic_};
     for (std::size_t s = 0; s < options.evaluation.streams.size(); ++s) {

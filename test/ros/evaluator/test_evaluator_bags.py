@@ -15,7 +15,7 @@ import rospy
 import rostest
 import yaml
 from geometry_msgs.msg import PoseStamped
-from sensor_msgs.msg import CompressedImage
+from sensor_msgs.msg import CameraInfo, CompressedImage
 from std_msgs.msg import String
 from sunlit.msg import Capture
 
@@ -157,6 +157,32 @@ class TestBags(unittest.TestCase):
                           settings['features/unlit/illumination_invariant/peak_red']), ('orb', 'illumination_invariant', '611.4'))
         self.assertEqual(settings['features/equal/clahe/clip_limit'], '8')
         self.assertNotIn('features/as_it_is/preprocessing', settings)
+
+    def test_recordings_of_two_cameras_at_one_stamp_are_refused_and_a_bag_that_brings_nothing_is_named(self):
+        self.write_bags({'wide.bag': [0, 1], 'fisheye.bag': [0, 1]}, range(2))
+        for name, model, width in (('wide', 'plumb_bob', 160), ('fisheye', 'equidistant', 160)):
+            with rosbag.Bag(self.path(name + '.bag'), 'a') as bag:
+                for pose in range(2):
+                    camera = CameraInfo(width=width, height=120, distortion_model=model)
+                    camera.header.stamp = stamp_of(pose)
+                    bag.write('/h12/camera/camera_info', camera, stamp_of(pose))
+        with rosbag.Bag(self.path('other.bag'), 'w') as bag:
+            bag.write('/robot/note', String('none of theirs'), stamp_of(0))
+        with open(self.path('two.yaml'), 'w') as file:
+            yaml.safe_dump({'streams': ['h04', 'h12'], 'output_dir': 'unused', 'differences': ['euclidean_grey'],
+                            'report': False}, file)
+
+        def evaluate(*bags):
+            return self.evaluate_bags('--config', self.path('two.yaml'), '--out', self.path('two'), *map(self.path, bags))
+        done = evaluate('wide.bag', 'fisheye.bag')
+        self.assertNotEqual(done.returncode, 0, done.stdout)
+        for word in ('wide.bag', 'fisheye.bag are of two cameras: /h12/camera/camera_info differs at stamp ', '--query'):
+            self.assertIn(word, done.stdout)
+        self.assertFalse(os.path.exists(self.path('two/frames.csv')))
+        done = evaluate('wide.bag', 'other.bag')
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn('warning: %s brings nothing: it holds none of ' % self.path('other.bag'), done.stdout)
+        self.assertIn('it holds: /robot/note', done.stdout)
 
     def test_a_network_is_a_detector_and_another_one_under_its_name_is_noticed(self):
         self.write_bags({'all.bag': [0, 1]}, range(2))

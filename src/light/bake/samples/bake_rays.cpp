@@ -45,18 +45,17 @@ void BakeRays::preferBacks(const RayPacket& rays, HitPacket* hits) const {
 void BakeRays::hide(const std::vector<BakeSight>& sights, std::vector<std::uint8_t>* hidden) const {
   hidden->assign(sights.size(), 0);
   RayPacket packet;
-  HitPacket hits;
+  RayReach reach;
+  std::uint8_t found[RayPacket::kSize];
   for (std::size_t first = 0; first < sights.size(); first += RayPacket::kSize) {
     const std::size_t count = std::min<std::size_t>(RayPacket::kSize, sights.size() - first);
     for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
       const BakeSight& sight = sights[first + std::min(i, count - 1)];
       packet.set(i, sight.origin, sight.way, i < count);
+      reach.to[i] = std::max(sight.reach, 0.0f);
     }
-    cast(packet, &hits);
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool met = hits.triangle[i] != HitPacket::kNothing;
-      (*hidden)[first + i] = met && hits.distance[i] < sights[first + i].reach ? 1 : 0;
-    }
+    scene_.hide(packet, reach, found);
+    std::copy_n(found, count, hidden->begin() + static_cast<std::ptrdiff_t>(first));
   }
 }
 

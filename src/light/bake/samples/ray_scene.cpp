@@ -177,6 +177,7 @@ struct RayScene::Embree {
     if (number == kMasked) {
       rtcSetGeometryUserData(mesh, &masked_group);
       rtcSetGeometryIntersectFilterFunction(mesh, passCutoutsOfBake);
+      rtcSetGeometryOccludedFilterFunction(mesh, passCutoutsOfBake);
     }
     attach(mesh, scene.get(), number);
   }
@@ -249,6 +250,13 @@ void RayScene::cast(const RayPacket& rays, HitPacket* hits) const {
   // Rays of one direction from places metres apart soon part among leaves.
   intersect<kIncoherent>(rays.valid, embree_->scene.get(), &packet);
   embree_->read(packet, rays, hits);
+}
+
+void RayScene::hide(const RayPacket& rays, const RayReach& reach, std::uint8_t* hidden) const {
+  alignas(64) RTCRay16 packet = packetOf(rays, reach).ray;
+  occluded<kIncoherent>(rays.valid, embree_->scene.get(), &packet);
+  // Of what is hidden, Embree sets the end to −∞.
+  for (int i = 0; i < RayPacket::kSize; ++i) hidden[i] = packet.tfar[i] < 0.0f ? 1 : 0;
 }
 
 void RayScene::castAmong(Facing facing, const RayPacket& rays, const RayReach& reach, HitPacket* hits) const {

@@ -1,6 +1,7 @@
 /// The scene as rays of the bake meet it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "light/bake/samples/ray_packet.h"
@@ -26,6 +27,8 @@ class RayScene {
   const Geometry& geometry() const;
 
   void cast(const RayPacket& rays, HitPacket* hits) const;
+  /// Sets hidden[i] to 1 where a ray meets anything within its reach, else to 0.
+  void hide(const RayPacket& rays, const RayReach& reach, std::uint8_t* hidden) const;
   /// Of what shows the ray one of its sides, and is no leaf.
   void castAmong(Facing facing, const RayPacket& rays, const RayReach& reach, HitPacket* hits) const;
 
