@@ -30,19 +30,19 @@ std::string escaped(const std::string& text, const std::string& letters) {
 }
 
 /// Two triangles, 3 m wide and 2 m high, and coordinates for pictures.
-const std::string kNumbers = bytesOf<float>({0, 0, 0, 3, 0, 0, 0, 2, 0, 3, 2, 0}) +
-                             bytesOf<float>({0, 0, 1, 0, 0, 1, 1, 1}) +
-                             bytesOf<std::uint16_t>({0, 1, 2, 2, 1, 3});
+const std::string kTwoTriangles = bytesOf<float>({0, 0, 0, 3, 0, 0, 0, 2, 0, 3, 2, 0}) +
+                                  bytesOf<float>({0, 0, 1, 0, 0, 1, 1, 1}) +
+                                  bytesOf<std::uint16_t>({0, 1, 2, 2, 1, 3});
 
-struct Parts {
-  std::string uri = "data:;base64," + base64(kNumbers);
+struct DataFile {
+  std::string uri = "data:;base64," + base64(kTwoTriangles);
   std::string attributes = "", targets = "";  ///< more of them, before and behind a comma
   std::string accessors = "";                 ///< from the fourth on
   std::string material = R"({"name":"m"})";
   std::string more = "";
 };
 
-std::string gltf(const Parts& parts) {
+std::string dataGltf(const DataFile& parts) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"materials":[)" +
          parts.material + R"(],"meshes":[{"weights":[1],"primitives":[{"material":0,"indices":2,"attributes":{
 "POSITION":0,"TEXCOORD_0":1)" +
@@ -58,7 +58,7 @@ std::string gltf(const Parts& parts) {
 
 class GltfData : public SceneFiles {
  protected:
-  Scene loaded(const Parts& parts) const { return load(write("t.gltf", gltf(parts)), {}); }
+  Scene loaded(const DataFile& parts) const { return load(write("t.gltf", dataGltf(parts)), {}); }
   static void expectWhole(const Scene& scene) {
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
     ASSERT_EQ(scene.triangleCount(), 2u);
@@ -70,10 +70,11 @@ class GltfData : public SceneFiles {
 
 // RFC 2397: data are of an address, and escaped as such, or base64, which may be, too.
 TEST_F(GltfData, InAddressesMayBeEscaped) {
-  for (const std::string& uri : {"data:application/octet-stream;base64," + escaped(base64(kNumbers), "+/="),
-                                 "data:application/octet-stream," + escaped(kNumbers, ""),
-                                 "DATA:application/octet-stream;BASE64," + base64(kNumbers)}) {
-    Parts parts;
+  for (const std::string& uri :
+       {"data:application/octet-stream;base64," + escaped(base64(kTwoTriangles), "+/="),
+        "data:application/octet-stream," + escaped(kTwoTriangles, ""),
+        "DATA:application/octet-stream;BASE64," + base64(kTwoTriangles)}) {
+    DataFile parts;
     parts.uri = uri;
     expectWhole(loaded(parts));
     // Whole numbers are read before Assimp does that.
@@ -91,7 +92,7 @@ TEST_F(GltfData, OfPicturesMayBeEscapedToo) {
   const std::string png = contentOf(pathOf("paint.png"));
   for (const std::string& uri :
        {"data:image/png;base64," + escaped(base64(png), "+/="), "data:image/png," + escaped(png, "")}) {
-    Parts parts;
+    DataFile parts;
     parts.material = R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
     parts.more = R"(,"textures":[{"source":0}],"images":[{"uri":")" + uri + "\"}]";
     const Scene scene = loaded(parts);
@@ -103,7 +104,7 @@ TEST_F(GltfData, OfPicturesMayBeEscapedToo) {
 
 // glTF 2.0, section 3.6.2.2: they are zeros, of any type.
 TEST_F(GltfData, ThatAreNowhereAreZeros) {
-  Parts parts;
+  DataFile parts;
   parts.targets = R"(,"targets":[{"POSITION":3}])";
   parts.attributes = R"(,"COLOR_0":4,"TEXCOORD_1":5)";
   parts.accessors = R"(,{"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[0,0,0]},
@@ -115,10 +116,10 @@ TEST_F(GltfData, ThatAreNowhereAreZeros) {
 }
 
 TEST_F(GltfData, ThatAreNowhereAreNoMoreThanAGibibyte) {
-  Parts parts;
+  DataFile parts;
   parts.attributes = R"(,"COLOR_0":3)";
   parts.accessors = R"(,{"componentType":5121,"normalized":true,"count":100000000,"type":"VEC3"})";
-  EXPECT_EQ(errorOf(write("t.gltf", gltf(parts))),
+  EXPECT_EQ(errorOf(write("t.gltf", dataGltf(parts))),
             pathOf("t.gltf") + ": accessor 3 is in no view, so all of zeros, and of more than 1 GiB");
 }
 
@@ -128,7 +129,7 @@ std::string dracoData() {
   const std::string faces("\x02\x04\x01\x00\x01\x02\x02\x01\x03", 9);  // of 4 points, by plain indices
   // One decoder of one attribute: positions, of floats, 3 each, not normalized, number 0, as they stand.
   const std::string attribute("\x01\x01\x00\x09\x03\x00\x00\x00", 8);
-  return header + faces + attribute + kNumbers.substr(0, 48);
+  return header + faces + attribute + kTwoTriangles.substr(0, 48);
 }
 
 std::string dracoGltf(const std::string& told) {
