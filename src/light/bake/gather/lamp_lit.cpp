@@ -20,6 +20,8 @@ namespace {
 /// there are not too many.
 constexpr float kPartLongest = 0.4f, kMostLongest = 2.0f, kManyLamps = 500.0f;
 constexpr float kShortest_m = 0.02f, kShortestByShining_m = 0.05f;
+/// A wall beside what shines would be many parts, and rays meet it well enough.
+constexpr float kLargestByShining_m = 1.0f;
 constexpr int kMostPartsHalved = 24;
 
 const scene::Material& materialOf(const Geometry& geometry, std::uint32_t triangle) {
@@ -261,6 +263,11 @@ bool maySendLampLight(const BakeScene& scene, std::uint32_t triangle) {
 }
 
 bool maySendShine(const BakeScene& scene, std::uint32_t triangle) {
+  const auto& corners = scene.geometry.triangles[triangle];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3f& from = scene.geometry.positions[corners[k]];
+    if ((scene.geometry.positions[corners[(k + 1) % 3]] - from).norm() > kLargestByShining_m) return false;
+  }
   return maySendLampLight(scene, triangle) && !glows(materialOf(scene.geometry, triangle), {});
 }
 

@@ -12,7 +12,8 @@ namespace sunlit::light {
 
 /// Whether lamp light that a triangle passes on may be looked for: it is opaque, and no leaf.
 bool maySendLampLight(const BakeScene& scene, std::uint32_t triangle);
-/// The same of light of what shines: of that itself, what it reflects counts little.
+/// The same of light of what shines: of small things, such as a housing around it, and not of what shines
+/// itself, of which what it reflects counts little.
 bool maySendShine(const BakeScene& scene, std::uint32_t triangle);
 
 /// What surfaces pass on of the light that they have straight from `lamps`, as far as it is looked for.
