@@ -68,6 +68,9 @@ def check_localised(folder):
     if outcome.get("not_localised"):
         raise Failure(f"{outcome['not_localised']} queries were not looked for ({path}); the reason stands above and in "
                       "problems.csv")
+    if outcome.get("unplaced"):
+        raise Failure(f"no query can be found by {', '.join(outcome['unplaced'])}: depth tells the place of none of the features in the "
+                      f"map ({path}); the reason stands above")
 
 
 def is_self_test(row):

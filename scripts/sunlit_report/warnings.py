@@ -37,6 +37,7 @@ def warnings(output):
     outcome = tables.mapping(output.run, "outcome")
     if outcome.get("whole") is False:
         found.append(f"The run is not whole: {_lacking(output.run, outcome)}. See counters and problems.")
+    found += _unplaced(outcome)
     frames = [row["reason"] for row in output.problems if row["kind"] == "other_frame"]
     return found + [f"Poses are of several frames: {reason}." for reason in frames[:1]]
 
@@ -48,6 +49,15 @@ def _lacking(run, outcome):
              (outcome.get("not_mended"), "pairs or pictures were left out by earlier or merged runs")]
     return (f"{outcome.get('completed_poses', '?')} poses came, "
             + (", ".join(f"{count} {what}" for count, what in lacks if count) or "but no stream of them is what was sent"))
+
+
+def _unplaced(outcome):
+    """Their queries all fail, which looks as if the light had done it."""
+    detectors = outcome.get("unplaced")
+    if not isinstance(detectors, list) or not detectors:
+        return []
+    return [f"Depth tells the place of none of the features that {', '.join(names.difference(str(one)) for one in detectors)} found in "
+            "the map, so that no query can be found by them: is it of the map's camera, in m or mm, and not 0?"]
 
 
 def _compares_features(series):

@@ -94,6 +94,12 @@ bool areTheSame(const std::string& a, const std::string& b) {
                     });
 }
 
+std::string listText(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + yamlQuoted(name);
+  return "[" + list + "]";
+}
+
 std::string countersText(const EvaluationOptions& options, const Outcome& outcome,
                          const LocalisationOutcome* localised) {
   std::ostringstream text;
@@ -102,7 +108,8 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
        << "\n  absent_poses: " << outcome.absent_poses << "\n  not_mended: " << outcome.not_mended
        << "\n  unexpected_poses: " << outcome.counts.unexpected_poses;
   if (localised != nullptr)
-    text << "\n  key_frames: " << localised->key_frames << "\n  not_localised: " << localised->unobserved;
+    text << "\n  key_frames: " << localised->key_frames << "\n  not_localised: " << localised->unobserved
+         << "\n  unplaced: " << listText(localised->unplaced);
   text << "\ncounters:\n  streams:\n";
   for (std::size_t i = 0; i < options.streams.size(); ++i) {
     const StreamCounts& c = outcome.counts.streams[i];

@@ -139,6 +139,9 @@ class AtTheEnd(unittest.TestCase):
                 check("  key_frames: 0\n  not_localised: 9\n")
             with self.assertRaisesRegex(Failure, "^2 queries were not looked for"):
                 check("  key_frames: 3\n  not_localised: 2\n")
+            check("  key_frames: 3\n  not_localised: 0\n  unplaced: []\n")
+            with self.assertRaisesRegex(Failure, "^no query can be found by sift, orb: depth tells the place of none"):
+                check("  key_frames: 3\n  not_localised: 0\n  unplaced: ['sift', 'orb']\n")
 
     def test_a_summary_is_this_run_s_by_being_another_file_whatever_the_clock_says(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -299,6 +299,14 @@ class Files(InFolder):
         self.assertIn("The run is not whole: 25 poses came, 2 pairs could not be evaluated, 4 pairs or pictures were left out by earlier "
                       "or merged runs. See counters and problems.", warnings.warnings(self.read()))
 
+    def test_detectors_that_depth_places_nowhere_are_pointed_out(self):
+        self.write("frames.csv", made.frames())
+        for unplaced, expected in (("[]", []), ("3", []), ("['orb']", [
+                "Depth tells the place of none of the features that ORB found in the map, so that no query can be found by them: is it of "
+                "the map's camera, in m or mm, and not 0?"])):
+            self.write("run.yaml", ["outcome: {whole: true, key_frames: 3, not_localised: 0, unplaced: %s}" % unplaced])
+            self.assertEqual([line for line in warnings.warnings(self.read()) if "Depth" in line], expected)
+
     def test_summary_of_other_frames_is_pointed_out(self):
         self.write("frames.csv", made.frames(differences=["sift"], pairs=made.PAIRS[:1]))
         self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])

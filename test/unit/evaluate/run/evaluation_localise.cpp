@@ -485,6 +485,8 @@ TEST(EvaluationLocalise, AMapWhoseDepthTellsNoPlaceIsAFaultAndNotOfTheLight) {
   EXPECT_GT(outcome.key_frames, 0u);
   EXPECT_EQ(outcome.unplaced, (std::vector<std::string>{"sift", "orb"}));
   EXPECT_FALSE(outcome.isWhole());
+  const std::string run = contentOf(folder.file("out/run.yaml"));
+  EXPECT_NE(run.find("\n  unplaced: ['sift', 'orb']\n"), std::string::npos) << run;
 }
 
 TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
@@ -505,8 +507,9 @@ TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
   const LocalisationOutcome outcome = evaluation.localise({});
   EXPECT_EQ(outcome.key_frames, 1u);
   EXPECT_EQ(outcome.unobserved, 2u) << "pose 1 of both queries";
-  EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("\n  key_frames: 1\n  not_localised: 2\n"),
-            std::string::npos);
+  EXPECT_NE(
+      contentOf(folder.file("out/run.yaml")).find("\n  key_frames: 1\n  not_localised: 2\n  unplaced: []\n"),
+      std::string::npos);
   EXPECT_FALSE(outcome.isWhole());
   const std::string problems = contentOf(folder.file("out/problems.csv"));
   EXPECT_TRUE(hasLine(problems, "unlocalised,1,500.100000000,dusk,camera/pose: holds what is not finite"));
