@@ -9,6 +9,7 @@
 
 #include "light/bake/gather/lamp_sight.h"
 #include "light/bake/samples/looked_for.h"
+#include "light/geometry/corners.h"
 #include "light/shading/reflectances.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/random.h"
@@ -263,11 +264,7 @@ bool maySendLampLight(const BakeScene& scene, std::uint32_t triangle) {
 }
 
 bool maySendShine(const BakeScene& scene, std::uint32_t triangle) {
-  const auto& corners = scene.geometry.triangles[triangle];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector3f& from = scene.geometry.positions[corners[k]];
-    if ((scene.geometry.positions[corners[(k + 1) % 3]] - from).norm() > kLargestByShining_m) return false;
-  }
+  if (longestEdge(scene.geometry, triangle) > kLargestByShining_m) return false;
   return maySendLampLight(scene, triangle) && !glows(materialOf(scene.geometry, triangle), {});
 }
 
