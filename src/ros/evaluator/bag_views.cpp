@@ -79,8 +79,11 @@ std::string lackOf(const std::string& topic, const ByStamp<Value>& values, std::
 /// Of an image that is to have its pose from between two.
 std::string lackOfPoses(const std::string& topic, const ByStamp<geometry_msgs::Pose>& poses,
                         std::int64_t stamp_ns, double tolerance_s) {
+  const std::string none = "no " + topic + " of this stamp";
+  const auto found = nearest(poses, stamp_ns);
+  if (found == poses.end() || std::abs(found->first - stamp_ns) > kTellingGap_ns) return none;
   const auto after = poses.lower_bound(stamp_ns);
-  std::string lack = "no " + topic + " of this stamp; the one before ";
+  std::string lack = none + "; the one before ";
   lack +=
       after == poses.begin() ? "is missing" : "is " + secondsOf(stamp_ns - std::prev(after)->first) + " away";
   lack += after == poses.end() ? ", and there is none behind"
