@@ -20,15 +20,20 @@ namespace {
 
 constexpr double kComparingAtMost_s = 2.0;  // once interrupted, of the 10 s until all is written
 
-/// Lasts until so long after an interrupt.
+/// By a signal, or without one, as `rosnode kill` does. Any thread may ask.
+bool isAskedToEnd() {
+  return isInterrupted() || !ros::ok();
+}
+
+/// Lasts until so long after that.
 class Patience {
  public:
-  Patience(double seconds, bool is_interrupted)
-      : length_ns_(static_cast<std::int64_t>(1e9 * seconds)), since_ns_(is_interrupted ? now() : kNever) {}
+  Patience(double seconds, bool is_asked)
+      : length_ns_(static_cast<std::int64_t>(1e9 * seconds)), since_ns_(is_asked ? now() : kNever) {}
   /// Thread-safe.
   bool isOver() const {
     std::int64_t never = kNever;
-    if (isInterrupted()) since_ns_.compare_exchange_strong(never, now());
+    if (isAskedToEnd()) since_ns_.compare_exchange_strong(never, now());
     const std::int64_t since_ns = since_ns_;
     return since_ns != kNever && now() - since_ns > length_ns_;
   }
@@ -140,7 +145,7 @@ void EvaluatorNode::finish(const std::string& reason) {
   const evaluate::Outcome outcome = evaluation_->finish(evaluate::StopToken([this] {
     diagnostics_->update();
     log_.update(options_.evaluation, evaluation_->counts());
-    return isInterrupted() || !ros::ok();
+    return isAskedToEnd();
   }));
   Summary message = messageOf(outcome.summary, outcome.counts.completed_poses);
   message.header.stamp = ros::Time::now();
@@ -157,7 +162,7 @@ void EvaluatorNode::finish(const std::string& reason) {
   if (!remarks.empty()) ROS_WARN("%s", remarks.c_str());
   if (!outcome.is_broken_off) localise();
   compareMethods(outcome.is_broken_off);
-  if (options_.report && !outcome.is_broken_off && !isInterrupted()) drawReport(outcome);
+  if (options_.report && !outcome.is_broken_off && !isAskedToEnd()) drawReport(outcome);
   status_ = faults_.empty() ? 0 : kNotWholeStatus;
   activity_.say("done", "", {1.0, 0.0});
 }
@@ -173,7 +178,7 @@ void EvaluatorNode::localise() {
     activity_.say("localising", "",
                   {static_cast<double>(done) / static_cast<double>(all), log.secondsLeft(done)});
   };
-  callbacks.stop = evaluate::StopToken([] { return isInterrupted(); });
+  callbacks.stop = evaluate::StopToken(isAskedToEnd);
   try {
     const evaluate::LocalisationOutcome outcome = evaluation_->localise(callbacks);
     if (outcome.is_asked || !outcome.summary.empty()) localisation_.publish(outcome.summary);
@@ -203,7 +208,7 @@ void EvaluatorNode::compareMethods(bool is_broken_off) {
 void EvaluatorNode::drawReport(const evaluate::Outcome& outcome) {
   activity_.say("reporting");
   try {
-    const evaluate::StopToken stop([] { return isInterrupted(); });
+    const evaluate::StopToken stop(isAskedToEnd);
     const std::string fault = drawnReport(evaluation_->options(), outcome.counts, stop);
     if (!fault.empty()) ROS_WARN("%s", fault.c_str());
   } catch (const evaluate::Stopped&) {
@@ -213,7 +218,7 @@ void EvaluatorNode::drawReport(const evaluate::Outcome& outcome) {
 
 int EvaluatorNode::run() {
   const ros::WallDuration kPatience(0.05);  // how late the end may be noticed
-  while (ros::ok() && !isInterrupted()) {
+  while (!isAskedToEnd()) {
     ros::getGlobalCallbackQueue()->callAvailable(kPatience);
     diagnostics_->update();
     if (fault_) {

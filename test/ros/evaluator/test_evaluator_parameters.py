@@ -8,13 +8,14 @@ import sys
 import tempfile
 import unittest
 
+import rosnode
 import rospkg
 import rospy
 import rostest
 import yaml
 from sensor_msgs.msg import Image
 from std_srvs.srv import Trigger
-from sunlit.msg import PairDifference, Summary
+from sunlit.msg import Activity, PairDifference, Summary
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from evaluator_runs import LONGEST_WAIT_S, Evaluator, Streams, picture, rows, stamp_of, wait_until  # noqa: E402
@@ -185,6 +186,24 @@ class TestParameters(unittest.TestCase):
         evaluator.process.send_signal(signal.SIGINT)  # Ctrl-C
         status, output = evaluator.wait()
         self.assertEqual(status, 0, output)
+        streams.close()
+
+    def test_rosnode_kill_is_heeded_while_the_report_is_drawn(self):
+        streams = Streams(['h04', 'h12'])
+        evaluator = Evaluator(dict(self.settings, report=True, poses=1, exit_when_done=True))
+        doing = []
+        subscriber = rospy.Subscriber('/%s/activity' % evaluator.name, Activity, lambda message: doing.append(message.doing))
+        streams.wait_for(evaluator)
+        wait_until(lambda: subscriber.get_num_connections() > 0, 'a connection')
+        for stream in range(2):
+            streams.send(stream, stamp_of(0), picture(0, stream))
+        wait_until(lambda: 'reporting' in doing, 'the report')
+        rosnode.kill_nodes(['/' + evaluator.name])
+        status, output = evaluator.wait()
+        self.assertEqual(status, 0, output)
+        self.assertIn('interrupted before the report was drawn', output)
+        self.assertFalse(os.path.exists(self.folder.name + '/out/report.html'))
+        subscriber.unregister()
         streams.close()
 
 
