@@ -8,10 +8,12 @@ import subprocess
 import roslib.packages
 
 from sunlit_experiment import recording
+from sunlit_experiment.idle import wait_until_idle
 from sunlit_experiment.launch import Failure
 from sunlit_experiment.parent import end_with_parent
 
 LIST = "recording.csv"
+PATIENCE_S = 10.0
 
 
 class Recorder:
@@ -40,6 +42,7 @@ class Recorder:
 
     def stop(self):
         if self.process and self.process.poll() is None:
+            wait_until_idle(self.process.pid, PATIENCE_S)  # at SIGINT it forgets what has reached it and is not written yet
             self.process.send_signal(signal.SIGINT)
             self.process.wait()
             self._remove_empty()

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <iostream>
 
 #include "ros/conversions/evaluation.h"
 #include "sunlit/evaluate/features/draw.h"
@@ -23,6 +24,14 @@ constexpr double kComparingAtMost_s = 2.0;  // once interrupted, of the 10 s unt
 /// By a signal, or without one, as `rosnode kill` does. Any thread may ask.
 bool isAskedToEnd() {
   return isInterrupted() || !ros::ok();
+}
+
+/// ROS says nothing more once it shuts down.
+void warnOfWhatIsLeft(const std::string& text) {
+  if (ros::ok())
+    ROS_WARN("%s", text.c_str());
+  else
+    std::cerr << "[ WARN] " << text << std::endl;
 }
 
 /// Lasts until so long after that.
@@ -189,7 +198,7 @@ void EvaluatorNode::localise() {
     faults_ += (faults_.empty() ? "" : "; ") + faults;
   } catch (const evaluate::Stopped&) {
     faults_ += std::string(faults_.empty() ? "" : "; ") + "interrupted before all queries were localised";
-    ROS_ERROR("interrupted before all queries were localised; the same run again does it");
+    warnOfWhatIsLeft("interrupted before all queries were localised; the same run again does it");
   }
 }
 
@@ -199,7 +208,7 @@ void EvaluatorNode::compareMethods(bool is_broken_off) {
   try {
     evaluation_->compareMethods(evaluate::StopToken([&] { return patience.isOver(); }));
   } catch (const evaluate::Stopped&) {
-    ROS_WARN(
+    warnOfWhatIsLeft(
         "interrupted before methods and hours were compared: there is no comparisons.csv; the same run again "
         "writes it");
   }
@@ -212,7 +221,7 @@ void EvaluatorNode::drawReport(const evaluate::Outcome& outcome) {
     const std::string fault = drawnReport(evaluation_->options(), outcome.counts, stop);
     if (!fault.empty()) ROS_WARN("%s", fault.c_str());
   } catch (const evaluate::Stopped&) {
-    ROS_WARN("interrupted before the report was drawn; the same run again draws it");
+    warnOfWhatIsLeft("interrupted before the report was drawn; the same run again draws it");
   }
 }
 

@@ -4,6 +4,7 @@ import datetime
 import math
 import os
 import re
+import sys
 import tempfile
 import threading
 import time
@@ -21,6 +22,9 @@ from std_srvs.srv import Trigger
 from sunlit.msg import Activity, Capture
 from sunlit.srv import RenderView
 from tf2_msgs.msg import TFMessage
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "..", "scripts"))
+from sunlit_experiment.idle import wait_until_idle  # noqa: E402
 
 
 def camera_at(x):
@@ -148,6 +152,7 @@ class RenderControl(unittest.TestCase):
             with record:
                 status, said = node.end()
                 self.assertEqual(status, 0, said)
+                self.assertTrue(wait_until_idle(record.process.pid, TIMEOUT_S))
             with rosbag.Bag(os.path.join(folder, "all.bag")) as bag:
                 for topic in topics:
                     self.assertEqual(bag.get_message_count(topic), 20, topic)

@@ -21,6 +21,7 @@ SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)
 sys.path.insert(0, os.path.join(SOURCE, "scripts"))
 
 from sunlit_experiment import recording  # noqa: E402
+from sunlit_experiment.idle import wait_until_idle  # noqa: E402
 
 FINDING = dict(os.environ, PYTHONPATH=os.pathsep.join([os.path.join(SOURCE, "scripts"), os.environ.get("PYTHONPATH", "")]))
 A, B = "/a/camera/camera_info", "/b/camera/camera_info"
@@ -209,6 +210,17 @@ class Recording(unittest.TestCase):
         finally:
             recording.time.sleep = sleep
         self.assertEqual((looks, self.told, os.listdir(self.folder)), ([True], [], ["recording_1.bag"]))
+
+    def test_a_process_is_idle_once_all_its_threads_wait(self):
+        with subprocess.Popen([sys.executable, "-c", "import os, sys, threading\nthreading.Thread(target=sys.stdin.read).start()\n"
+                               "print(flush=True)\nwhile not os.path.exists(sys.argv[1]):\n    pass", self.path("done")],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE) as working:
+            working.stdout.readline()
+            self.assertFalse(wait_until_idle(working.pid, 0.3))
+            open(self.path("done"), "wb").close()
+            self.assertTrue(wait_until_idle(working.pid, 30.0))
+            self.assertIsNone(working.poll())
+            working.communicate(b"")
 
     def test_ranges(self):
         self.assertEqual(recording.ranges([2, 0, 1, 5, 7, 8]), "0-2, 5, 7-8")
