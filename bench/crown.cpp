@@ -56,13 +56,13 @@ struct Grove {
 
   float area(std::uint32_t t) const {
     const auto& c = world.geometry->triangles[t];
-    const std::vector<Eigen::Vector3f>& at = world.geometry->positions;
+    const auto& at = world.geometry->positions;
     return 0.5f * (at[c[1]] - at[c[0]]).cross(at[c[2]] - at[c[0]]).norm();
   }
 
   void addPoints(std::uint32_t t) {
     const auto& c = world.geometry->triangles[t];
-    const std::vector<Eigen::Vector3f>& at = world.geometry->positions;
+    const auto& at = world.geometry->positions;
     const int steps = static_cast<int>(std::ceil(std::sqrt(2.0f * area(t)) / kStep_m));
     for (int i = 0; i <= steps; ++i) {
       for (int j = 0; i + j <= steps; ++j) {
