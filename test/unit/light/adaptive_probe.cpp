@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <set>
@@ -72,6 +73,27 @@ scene::Scene ground() {
   scene.materials = {paint(0.5f)};
   addGround(&scene, 0, 200.0f);
   return scene;
+}
+
+TEST(ReceiverGroup, WeighsEachReceiverToTheBit) {
+  const SkyPatches patches(kPatchRays);
+  std::vector<Receiver> receivers(5);
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    const auto turn = static_cast<float>(i);
+    receivers[i].normal = Eigen::Vector3f(0.3f + turn, 0.7f - turn, 0.4f).normalized();
+    if (i % 2 == 1) receivers[i].face = Eigen::Vector3f(0.1f, turn, -0.9f).normalized();
+    receivers[i].transmission = 0.15f * turn;
+  }
+  const ReceiverGroup group(receivers.data(), static_cast<int>(receivers.size()));
+  std::array<float, RayPacket::kSize> weights;
+  for (const SkyPatches::Ray& ray : patches.rays()) {
+    const ReceiverGroup::Lanes lanes = group.weigh(ray.towards, weights.data());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const float expected = i < receivers.size() ? receivers[i].weight(ray.towards) : 0.0f;
+      EXPECT_EQ(weights[i], expected) << i;
+      EXPECT_EQ(ReceiverGroup::has(lanes, static_cast<int>(i)), expected > 0.0f) << i;
+    }
+  }
 }
 
 TEST(AdaptiveProbe, SeesAnOpenSkyAsAllRaysDo) {

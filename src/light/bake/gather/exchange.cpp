@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "light/bake/gather/room_mirrors.h"
 #include "light/bake/samples/looked_for.h"
@@ -19,74 +20,16 @@ float luminanceOf(const Eigen::Array3f& rgb) {
   return LinearRgb(rgb).luminance();
 }
 
-/// Of what the samples of a block have, on average; more still follows. By blocks, and not of all samples: a
-/// white room in a wide land would be left after a few bounces.
+/// Of what a sample sends: of less than that it waits until more has come.
 constexpr float kNextToNothing = 2e-4f;
+/// lx: from lamps the same, though that is all that there is. A tenth of what is worth to be stored.
+constexpr float kUntold_lx = 1e-6f;
 
 /// Of ground towards a ray that comes down along `towards`, in what it scatters towards the mean one.
 float scatteredDown(const Eigen::Vector3f& towards) {
   static const float mean = 1.0f - meanGrazing(kMeanView);
   return (1.0f - meanGrazing(-towards.z())) / mean;
 }
-
-float relativeChange(const Eigen::Array3f& before, const Eigen::Array3f& after) {
-  const float most = after.maxCoeff();
-  return most > 0.0f ? (after - before).abs().maxCoeff() / most : 0.0f;
-}
-float relativeChange(const Arrived& before, const Arrived& after) {
-  return relativeChange(before.all(), after.all());
-}
-
-/// Blocks of kSamplesOfTask samples, neighbours mostly, and which of them still change as light goes on from
-/// surface to surface. Parallel; the same bits for any number of threads.
-class ChangingBlocks {
- public:
-  /// visit(sample, see) is to call see() with all samples whose light a sample gets.
-  template <typename Visit>
-  ChangingBlocks(std::size_t samples, const Visit& visit)
-      : samples_(samples), seen_((samples + kSamplesOfTask - 1) / kSamplesOfTask), changed_(seen_.size(), 1) {
-    tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t block) {
-      std::vector<std::uint8_t> is_seen(seen_.size(), 0);
-      for (std::size_t i = block * kSamplesOfTask; i < end(block); ++i)
-        visit(i, [&](std::uint32_t sample) { is_seen[sample / kSamplesOfTask] = 1; });
-      for (std::uint32_t other = 0; other < is_seen.size(); ++other)
-        if (is_seen[other] != 0) seen_[block].push_back(other);
-    });
-  }
-  /// Whether the last bounce changed anything.
-  bool any() const { return std::find(changed_.begin(), changed_.end(), 1) != changed_.end(); }
-  /// Sets `has` of those samples whose light changes by `receive`; `next` is as long, for what is under way.
-  template <typename Value, typename Receive>
-  void receive(const Receive& receive, std::vector<Value>* has, std::vector<Value>* next) {
-    std::vector<std::uint8_t> changes(seen_.size(), 0);
-    std::vector<std::uint8_t> is_new(seen_.size(), 0);
-    tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t block) {
-      is_new[block] = std::any_of(seen_[block].begin(), seen_[block].end(),
-                                  [&](std::uint32_t other) { return changed_[other] != 0; });
-      if (is_new[block] == 0) return;
-      float change = 0.0f;
-      for (std::size_t i = block * kSamplesOfTask; i < end(block); ++i) {
-        (*next)[i] = receive(i);
-        change += relativeChange((*has)[i], (*next)[i]);
-      }
-      changes[block] = change > kNextToNothing * static_cast<float>(end(block) - block * kSamplesOfTask);
-    });
-    tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t block) {
-      if (is_new[block] == 0) return;
-      const auto first = static_cast<std::ptrdiff_t>(block * kSamplesOfTask);
-      std::copy(next->begin() + first, next->begin() + static_cast<std::ptrdiff_t>(end(block)),
-                has->begin() + first);
-    });
-    changed_.swap(changes);
-  }
-
- private:
-  std::size_t end(std::size_t block) const { return std::min(samples_, (block + 1) * kSamplesOfTask); }
-
-  std::size_t samples_;
-  std::vector<std::vector<std::uint32_t>> seen_;  ///< blocks whose light each block gets
-  std::vector<std::uint8_t> changed_;             ///< whether the last bounce changed it
-};
 
 /// Of a sample that only later bounces reach nobody knows where in the sky its light is from.
 void setEven(float sum, std::size_t sample, Coefficients* coefficients) {
@@ -209,15 +152,6 @@ Arrived Exchange::receivedOf(const Sent& sent, std::size_t sample) const {
   return sum;
 }
 
-template <typename See>
-void Exchange::visitSenders(std::size_t sample, const See& see) const {
-  visitSeen(sample, all, [&](const SampleSeen& other, bool) {
-    const std::uint32_t sender = senderOf(other.sample), behind = samples_.other_side[sender].sample;
-    see(sender);
-    if (behind != LightMesh::kNone) see(behind);
-  });
-}
-
 std::vector<Sending> Exchange::sendings() const {
   std::vector<Sending> all(sentCount());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = sendingOf(i); });
@@ -264,41 +198,78 @@ std::vector<Arrived> Exchange::receivedOf(const LookedFor& sent, std::vector<Arr
   return found;
 }
 
-std::vector<Arrived> Exchange::passedOn(const std::vector<Arrived>& first, int most) const {
-  std::vector<Arrived> has = first, next(seen.size());
-  Sent sent(sentCount());
-  const std::vector<Sending> sends_of = sendings();
-  ChangingBlocks changing(seen.size(), [&](std::size_t i, const auto& see) { visitSenders(i, see); });
-  for (int bounce = 1; bounce < most && changing.any(); ++bounce) {
-    tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) {
-      const Sending& sends = sends_of[i];
-      Eigen::Array3f light = sends.bounced * has[senderOf(i)].all();
-      if (sends.other != LightMesh::kNone) light += sends.through * has[sends.other].all();
-      sent.set(i, light);
+/// Asked for once all is seen.
+const std::vector<std::vector<std::uint32_t>>& Exchange::senders() const {
+  std::call_once(senders_found_, [&] {
+    senders_.resize((seen.size() + kSamplesOfTask - 1) / kSamplesOfTask);
+    tbb::parallel_for(std::size_t{0}, senders_.size(), [&](std::size_t block) {
+      std::vector<std::uint8_t> is_seen(senders_.size(), 0);
+      for (std::size_t i = block * kSamplesOfTask; i < endOf(block); ++i) {
+        visitSeen(i, all, [&](const SampleSeen& other, bool) {
+          is_seen[senderOf(other.sample) / kSamplesOfTask] = 1;
+        });
+      }
+      for (std::uint32_t other = 0; other < is_seen.size(); ++other)
+        if (is_seen[other] != 0) senders_[block].push_back(other);
     });
-    const auto receive = [&](std::size_t i) {
-      const Arrived further = receivedOf(sent, i);
-      return Arrived{first[i].above + further.above, first[i].below + further.below};
-    };
-    changing.receive(receive, &has, &next);
+  });
+  return senders_;
+}
+
+/// Of what is sent, send(number) by what samples have, all know what they were `told`. The rest goes on.
+template <typename Send>
+void Exchange::passOnChanges(const Send& send, float dark, int most, OnItsWay* light) const {
+  const std::vector<std::vector<std::uint32_t>>& senders = this->senders();
+  Sent changes(sentCount());
+  std::vector<std::uint8_t> changed(senders.size());
+  for (int bounce = 0; bounce < most; ++bounce) {
+    tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) {
+      const Eigen::Array3f now = send(i), change = now - light->told[i];
+      const bool matters = change.abs().maxCoeff() > std::max(kNextToNothing * now.maxCoeff(), dark);
+      changes.set(i, matters ? change : Eigen::Array3f::Zero());
+      if (matters) light->told[i] = now;
+    });
+    std::fill(changed.begin(), changed.end(), 0);
+    for (std::size_t i = 0; i < sentCount(); ++i) changed[senderOf(i) / kSamplesOfTask] |= changes.any[i];
+    if (std::find(changed.begin(), changed.end(), 1) == changed.end()) return;
+    tbb::parallel_for(std::size_t{0}, senders.size(), [&](std::size_t block) {
+      const bool is_new = std::any_of(senders[block].begin(), senders[block].end(),
+                                      [&](std::uint32_t other) { return changed[other] != 0; });
+      if (!is_new) return;
+      for (std::size_t i = block * kSamplesOfTask; i < endOf(block); ++i) {
+        const Arrived further = receivedOf(changes, i);
+        (*light->has)[i].above += further.above;
+        (*light->has)[i].below += further.below;
+      }
+    });
   }
+}
+
+std::vector<Arrived> Exchange::passedOn(std::vector<Arrived> first, int most) const {
+  std::vector<Arrived> has = std::move(first);
+  const std::vector<Sending> sends_of = sendings();
+  const auto send = [&](std::size_t i) -> Eigen::Array3f {
+    const Sending& sends = sends_of[i];
+    Eigen::Array3f sent = sends.bounced * has[senderOf(i)].all();
+    if (sends.other != LightMesh::kNone) sent += sends.through * has[sends.other].all();
+    return sent;
+  };
+  OnItsWay light{&has, std::vector<Eigen::Array3f>(sentCount(), Eigen::Array3f::Zero())};
+  passOnChanges(send, kUntold_lx, most - 1, &light);
   return has;
 }
 
 void Exchange::addLaterBounces(TransportData* data) const {
-  const std::size_t count = seen.size();
   SumsOfAll has = sumsOf(*data);
   const std::vector<Arrived> traced = has.passed_on;
-  std::vector<Arrived> next(count);
-  std::vector<Eigen::Array3f> sent(sentCount());
   const std::vector<Sending> sends_of = sendings();
-  ChangingBlocks changing(count, [&](std::size_t i, const auto& see) { visitSenders(i, see); });
-  for (int bounce = 0; bounce < kAllBounces && changing.any(); ++bounce) {
-    tbb::parallel_for(std::size_t{0}, sent.size(),
-                      [&](std::size_t i) { sent[i] = sentBy(sends_of[i], has, senderOf(i)); });
-    changing.receive([&](std::size_t i) { return received(sent, i); }, &has.passed_on, &next);
-  }
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  const auto send = [&](std::size_t i) { return sentBy(sends_of[i], has, senderOf(i)); };
+  OnItsWay light{&has.passed_on, std::vector<Eigen::Array3f>(sentCount())};
+  tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) { light.told[i] = send(i); });
+  tbb::parallel_for(std::size_t{0}, seen.size(),
+                    [&](std::size_t i) { has.passed_on[i] = received(light.told, i); });
+  passOnChanges(send, 0.0f, kAllBounces - 1, &light);
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
     brighten(traced[i].above, has.passed_on[i].above, i, &data->above);
     brighten(traced[i].below, has.passed_on[i].below, i, &data->below);
   });

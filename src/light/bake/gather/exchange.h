@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include "light/bake/gather/sent_light.h"
@@ -136,7 +138,7 @@ class Exchange {
   std::vector<Arrived> receivedOf(const LookedFor& sent, std::vector<Arrived> found) const;
   /// What each sample has by surfaces that pass on light, of which it has `first` by one bounce: by `most`
   /// bounces, or until they add next to nothing. Parallel.
-  std::vector<Arrived> passedOn(const std::vector<Arrived>& first, int most) const;
+  std::vector<Arrived> passedOn(std::vector<Arrived> first, int most) const;
 
   /// Bounces of white walls, that pass on 0.98, until next to nothing is left.
   static constexpr int kAllBounces = 200;
@@ -149,9 +151,16 @@ class Exchange {
   static_assert(SkyPatches::kAbove <= 256 && SkyPatches::kDown <= 256, "a direction fits above a sample");
 
   Arrived receivedOf(const Sent& sent, std::size_t sample) const;
-  /// Calls see(number) with all samples whose light a sample gets.
-  template <typename See>
-  void visitSenders(std::size_t sample, const See& see) const;
+  /// Of each block of kSamplesOfTask samples, neighbours mostly: blocks whose light it gets.
+  const std::vector<std::vector<std::uint32_t>>& senders() const;
+  /// What samples have, and what they sent of it that others have by now.
+  struct OnItsWay {
+    std::vector<Arrived>* has;
+    std::vector<Eigen::Array3f> told;  ///< by the number of what is sent
+  };
+  template <typename Send>
+  void passOnChanges(const Send& send, float dark, int most, OnItsWay* light) const;
+  std::size_t endOf(std::size_t block) const { return std::min(seen.size(), (block + 1) * kSamplesOfTask); }
   /// sendingOf() all, for who needs it many times.
   std::vector<Sending> sendings() const;
 
@@ -165,6 +174,8 @@ class Exchange {
   std::array<float, SkyPatches::kDown> scattered_down_;  ///< scattered() by ground, of each direction
   std::vector<std::uint32_t> instead_;  ///< of each sample of no use: one that is, or LightMesh::kNone
   std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
+  mutable std::once_flag senders_found_;
+  mutable std::vector<std::vector<std::uint32_t>> senders_;
 };
 
 template <typename Wanted, typename Visit>

@@ -291,13 +291,30 @@ class Gatherer {
     return row;
   }
 
+  /// Of a row of coefficients, and how much it counts.
+  struct Sender {
+    float factor;
+    const std::uint8_t* row;
+    bool up;
+  };
+  static void prefetchRow(const std::uint8_t* row) {
+    constexpr std::size_t kCacheLine = 64;
+    for (std::size_t at = 0; at < kPatches; at += kCacheLine) __builtin_prefetch(row + at);
+  }
+
   void receive(const Coefficients& sent, const std::vector<Eigen::Array3f>& others, std::size_t i,
                TransportData* data) const {
     Row above{}, below{};
     addTimes(mirrored_.scales[i], mirrored_.row(i), below.data());
+    std::vector<Sender> senders;
     exchange_.visitSeen(i, Exchange::all, [&](const SampleSeen& seen, bool up) {
-      addTimes(seen.weight * sent.scales[seen.sample], sent.row(seen.sample), (up ? above : below).data());
+      senders.push_back({seen.weight * sent.scales[seen.sample], sent.row(seen.sample), up});
     });
+    constexpr std::size_t kAhead = 6;  // rows lie all over the memory
+    for (std::size_t k = 0; k < senders.size(); ++k) {
+      prefetchRow(senders[std::min(k + kAhead, senders.size() - 1)].row);
+      addTimes(senders[k].factor, senders[k].row, (senders[k].up ? above : below).data());
+    }
     const Arrived sums = exchange_.received(others, i);
     data->above.coefficients.set(i, above.data());
     data->below.coefficients.set(i, below.data());

@@ -48,34 +48,35 @@ void storeGlow(const Eigen::Array3f& light, std::size_t sample, PassedOn* part) 
 }  // namespace
 
 /// What each sample has of these.
-std::vector<Arrived> LampBounces::lookFor(const std::vector<AreaLights::Piece>& pieces,
-                                          Looking looking) const {
+std::vector<Arrived> LampBounces::lookFor(const std::vector<AreaLights::Piece>& pieces) const {
   const AreaLights lights(scene_.rays, pieces);
   std::vector<Arrived> found(samples_.receivers.size());
   if (!lights.any()) return found;
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
     const Receiver& receiver = samples_.receivers[i];
-    const AreaLights::Light light =
-        looking == Looking::kClosely && !receiver.coarse ? lights.at(receiver, i) : lights.about(receiver, i);
+    const AreaLights::Light light = receiver.coarse ? lights.about(receiver, i) : lights.at(receiver, i);
     found[i] = {light.above, light.below};
   });
   return found;
 }
 
-/// What samples have of `lamps` by way of surfaces, of which `lit` are looked for. At first that is what
-/// these have straight from lamps. White walls of a room pass on as much of each other's light: who looks
-/// into it through a window or a gap looks for that, too, once it is known.
+/// What samples have of `lamps` by way of surfaces, of which `lit` are looked for. White walls of a room pass
+/// on as much of each other's light as they have straight from lamps: who looks into it through a window or a
+/// gap looks for that, too. How much it is rays alone tell well enough, since many surfaces add to it.
 std::vector<Arrived> LampBounces::passedOn(const StraightLight& lamps,
                                            std::vector<AreaLights::Piece> lit) const {
-  std::vector<Arrived> has(samples_.receivers.size());
-  if (bounces_ < 1) return has;
-  const auto first = [&](Looking looking) {
-    return exchange_.receivedOf(exchange_.sentOf(lamps, has), lookFor(lit, looking));
-  };
-  if (bounces_ == 1 || lit.empty()) return exchange_.passedOn(first(Looking::kClosely), bounces_);
-  has = exchange_.passedOn(first(Looking::kAbout), bounces_ - 1);
+  const std::vector<Arrived> nothing(samples_.receivers.size());
+  if (bounces_ < 1) return nothing;
+  if (bounces_ == 1 || lit.empty()) {
+    const auto first = exchange_.receivedOf(exchange_.sentOf(lamps, nothing), lookFor(lit));
+    return exchange_.passedOn(first, bounces_);
+  }
+  StraightLight met = lamps;
+  std::fill(met.looked_for.begin(), met.looked_for.end(), Eigen::Array3f::Zero());
+  const auto first = exchange_.receivedOf(exchange_.sentOf(met, nothing), nothing);
+  const std::vector<Arrived> has = exchange_.passedOn(first, bounces_ - 1);
   addBounced(has, &lit);
-  return first(Looking::kClosely);
+  return exchange_.receivedOf(exchange_.sentOf(lamps, has), lookFor(lit));
 }
 
 /// Adds what surfaces pass on of what they have besides.

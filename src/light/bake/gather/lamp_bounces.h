@@ -21,8 +21,7 @@ class LampBounces {
 
  private:
   std::vector<Arrived> passedOn(const StraightLight& lamps, std::vector<AreaLights::Piece> lit) const;
-  enum class Looking { kAbout, kClosely };
-  std::vector<Arrived> lookFor(const std::vector<AreaLights::Piece>& pieces, Looking looking) const;
+  std::vector<Arrived> lookFor(const std::vector<AreaLights::Piece>& pieces) const;
   void addBounced(const std::vector<Arrived>& has, std::vector<AreaLights::Piece>* lit) const;
   std::vector<bool> sending() const;
 

@@ -70,6 +70,8 @@ void AreaLights::build(std::uint32_t first, std::uint32_t end) {
     cluster.lamp_m += power * piece.lamp_m;
     cluster.least_lamp_m = std::min(cluster.least_lamp_m, piece.lamp_m);
   }
+  cluster.radius_m = 0.5f * cluster.box.diagonal().norm();
+  cluster.both = pieces_[first].both;
   cluster.middle /= cluster.power;
   cluster.facing /= cluster.power;
   cluster.lamp_m /= cluster.power;

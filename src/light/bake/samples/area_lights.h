@@ -70,6 +70,8 @@ class AreaLights {
     Eigen::Vector3f middle = Eigen::Vector3f::Zero();   ///< mean, by power
     Eigen::Vector3f facing = Eigen::Vector3f::Zero();   ///< mean normal by power, shorter than 1
     float spread = 0.0f;                                ///< sine of the widest angle to it
+    float radius_m = 0.0f;                              ///< half the diagonal of `box`
+    bool both = false;                                  ///< sides shine
     float power = 0.0f;                                 ///< cd
     float lamp_m = 0.0f, least_lamp_m = 1e9f;           ///< Piece::lamp_m: mean by power, and the least
     std::uint32_t first = 0, end = 0;                   ///< pieces

@@ -157,50 +157,53 @@ class AreaLights::Look {
     }
     for (const Coarse& left : coarse_) {
       const Cluster& cluster = sources_.clusters_[left.number];
-      askFar(cluster, sources_.pieces_[cluster.first].both);
+      askFar(cluster);
     }
   }
 
   void consider(std::uint32_t number) {
     const Cluster& cluster = sources_.clusters_[number];
-    const Piece& piece = sources_.pieces_[cluster.first];
-    if (isTooNear(cluster) || isBehind(cluster, piece.both)) return;
+    const Eigen::Vector3f way = cluster.box.center() - middle_;
+    if (isTooNear(cluster, way) || isBehind(cluster, way)) return;
     const std::size_t before = asked_.size();
     if (cluster.second == 0) {
+      const Piece& piece = sources_.pieces_[cluster.first];
       if (isSeen(piece)) ask(piece, 0);
     } else if (isWide(cluster) || isSeenInPart(cluster)) {
-      const float nearest_m = std::max(cluster.box.exteriorDistance(middle_), 1e-3f);
-      const float wide_m = 0.5f * cluster.box.diagonal().norm(), away_m = (cluster.middle - middle_).norm();
-      const float most = cluster.power / (nearest_m * nearest_m),
-                  about = cluster.power / (away_m * away_m + wide_m * wide_m);
+      const float nearest_m2 = std::max(cluster.box.squaredExteriorDistance(middle_), 1e-6f);
+      const float away_m2 = (cluster.middle - middle_).squaredNorm();
+      const float most = cluster.power / nearest_m2,
+                  about = cluster.power / (away_m2 + cluster.radius_m * cluster.radius_m);
       coarse_.push_back({most, about, number});
       std::push_heap(coarse_.begin(), coarse_.end());
       about_ += about;
     } else {
-      askFar(cluster, piece.both);
+      askFar(cluster);
     }
     for (std::size_t i = before; i < asked_.size(); ++i) about_ += asked_[i].size;
   }
 
-  /// Whether all of it shines by lamps that are no nearer to it than the place is.
-  bool isTooNear(const Cluster& cluster) const {
+  /// Whether all of it shines by lamps that are no nearer to it than the place is; `way`: to its box's
+  /// middle.
+  static bool isTooNear(const Cluster& cluster, const Eigen::Vector3f& way) {
     if (!(cluster.least_lamp_m > 0.0f)) return false;
-    const float farthest_m = (cluster.box.center() - middle_).norm() + 0.5f * cluster.box.diagonal().norm();
-    return !(lookedForFrom(cluster.least_lamp_m, farthest_m) > 0.0f);
+    return !(lookedForFrom(cluster.least_lamp_m, way.norm() + cluster.radius_m) > 0.0f);
   }
 
   /// Whether it lies below the place's plane, or the place behind those of all its pieces.
-  bool isBehind(const Cluster& cluster, bool both) const {
-    const Eigen::Vector3f way = cluster.box.center() - middle_, half = 0.5f * cluster.box.diagonal();
+  bool isBehind(const Cluster& cluster, const Eigen::Vector3f& way) const {
+    const Eigen::Vector3f half = 0.5f * cluster.box.diagonal();
     const auto reaches = [&](const Eigen::Vector3f& normal) {
       return normal.dot(way) + normal.cwiseAbs().dot(half);
     };
     if (!(receiver_.transmission > 0.0f) && reaches(receiver_.normal) <= 0.0f) return true;
-    return !both && cluster.spread < kAlike && reaches(-cluster.facing) <= -kAlike * way.norm();
+    return !cluster.both && cluster.spread < kAlike && reaches(-cluster.facing) <= -kAlike * way.norm();
   }
 
   bool isWide(const Cluster& cluster) const {
-    return cluster.box.diagonal().norm() > kWidest * cluster.box.exteriorDistance(middle_);
+    constexpr float kWidestRadius = 0.5f * kWidest;
+    return cluster.radius_m * cluster.radius_m >
+           kWidestRadius * kWidestRadius * cluster.box.squaredExteriorDistance(middle_);
   }
 
   /// Whether some of its pieces face the place and others do not.
@@ -215,10 +218,10 @@ class AreaLights::Look {
   }
 
   /// As a point whose intensity is the sum over its pieces, each by its cosine.
-  void askFar(const Cluster& cluster, bool both) {
+  void askFar(const Cluster& cluster) {
     const Eigen::Vector3f way = cluster.middle - middle_;
     const float distance_m = way.norm(), before = -cluster.facing.dot(way) / distance_m;
-    const float seen = both ? std::abs(before) : std::max(before, 0.0f);
+    const float seen = cluster.both ? std::abs(before) : std::max(before, 0.0f);
     const float looked = lookedForFrom(cluster.lamp_m, distance_m);
     forEachSide([&](float side, float share) {
       const float cosine = std::max(side * receiver_.normal.dot(way) / distance_m, 0.0f);

@@ -79,7 +79,7 @@ class ReceiverGroup {
   static bool has(Lanes lanes, int receiver) { return (lanes >> receiver & 1u) != 0; }
 
   /// Keeps `receivers`, of which there are 1 … RayPacket::kSize.
-  ReceiverGroup(const Receiver* receivers, int count) : receivers_(receivers), count_(count) {}
+  ReceiverGroup(const Receiver* receivers, int count);
   int count() const { return count_; }
   /// Those whose coarse rays are enough.
   Lanes coarse() const {
@@ -90,11 +90,9 @@ class ReceiverGroup {
 
   /// Sets Receiver::weight() of each receiver; zero beyond them. Returns those that it is not zero for.
   Lanes weigh(const Eigen::Vector3f& towards, float* weights) const {
+    weigh(facings_, towards, weights);
     Lanes lanes = 0;
-    for (int i = 0; i < RayPacket::kSize; ++i) {
-      weights[i] = i < count_ ? receivers_[i].weight(towards) : 0.0f;
-      if (weights[i] > 0.0f) lanes |= Lanes{1} << i;
-    }
+    for (int i = 0; i < RayPacket::kSize; ++i) lanes |= Lanes{weights[i] > 0.0f} << i;
     return lanes;
   }
   /// Rays of one direction.
@@ -114,8 +112,17 @@ class ReceiverGroup {
   }
 
  private:
+  /// What Receiver::weight() asks for, value by value.
+  struct Facings {
+    alignas(64) float normal_x[RayPacket::kSize], normal_y[RayPacket::kSize], normal_z[RayPacket::kSize];
+    alignas(64) float face_x[RayPacket::kSize], face_y[RayPacket::kSize], face_z[RayPacket::kSize];
+    alignas(64) float transmission[RayPacket::kSize];
+  };
+  static void weigh(const Facings& facings, const Eigen::Vector3f& towards, float* weights);
+
   const Receiver* receivers_;
   int count_;
+  Facings facings_;
 };
 
 /// Casts each of `rays` that counts for a receiver, and calls visit(i, ray, weight, hits): the index of the

@@ -10,6 +10,27 @@
 #include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {
+namespace {
+
+/// Of values ≥ 0.
+SUNLIT_WIDE_VECTOR_CLONES
+float largestOf(const float* row) {
+  constexpr std::size_t kLanes = 16;
+  static_assert(SkyPatches::kCount % kLanes == 0, "no rest");
+  float lanes[kLanes] = {};
+  for (std::size_t p = 0; p < SkyPatches::kCount; p += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      lanes[lane] = row[p + lane] > lanes[lane] ? row[p + lane] : lanes[lane];
+  return *std::max_element(lanes, lanes + kLanes);
+}
+
+SUNLIT_WIDE_VECTOR_CLONES
+void roundTimes(float factor, const float* __restrict row, std::uint8_t* __restrict to) {
+  for (std::size_t p = 0; p < SkyPatches::kCount; ++p)
+    to[p] = static_cast<std::uint8_t>(static_cast<int>(row[p] * factor + 0.5f));
+}
+
+}  // namespace
 
 const std::vector<Eigen::Vector3f>& TransportData::places(const Geometry& geometry) const {
   std::call_once(places_found_, [&] {
@@ -58,11 +79,10 @@ void Coefficients::resize(std::size_t samples) {
 }
 
 void Coefficients::set(std::size_t sample, const float* row) {
-  const float largest = *std::max_element(row, row + SkyPatches::kCount);
+  const float largest = largestOf(row);
   scales[sample] = largest / 255.0f;
   const float inverse = largest > 0.0f ? 255.0f / largest : 0.0f;
-  std::uint8_t* to = rows.data() + sample * SkyPatches::kCount;
-  for (int p = 0; p < SkyPatches::kCount; ++p) to[p] = static_cast<std::uint8_t>(row[p] * inverse + 0.5f);
+  roundTimes(inverse, row, rows.data() + sample * SkyPatches::kCount);
 }
 
 void Coefficients::copy(const Coefficients& others, std::size_t from, std::size_t sample) {
