@@ -16,6 +16,7 @@ import rospy
 import rosunit
 from geometry_msgs.msg import PoseStamped, TransformStamped
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image
+from sunlit.msg import Capture
 
 from timelapse import run
 
@@ -95,6 +96,11 @@ class LocaliseBags(unittest.TestCase):
                 image = message(picture, "mono8", stamp)
                 topics = {stream + "camera/image_raw": image, stream + "camera/camera_info": info,
                           "camera/depth/image_raw": depth_message, "camera/pose": pose}
+                if "suns" in changes:
+                    utc, azimuth = changes["suns"][index]
+                    capture = Capture(utc=utc, pose_index=index, sun_azimuth=azimuth, sun_elevation=0.5)
+                    capture.header.stamp = stamp
+                    topics[stream + "camera/capture"] = capture
                 if changes.get("png"):
                     image = CompressedImage(format="png", data=cv2.imencode(".png", picture)[1].tobytes())
                     image.header.stamp = stamp
@@ -362,6 +368,25 @@ class LocaliseBags(unittest.TestCase):
         self.assertEqual([row["fault"] for row in self.rows("out", "localisation_problems.csv")],
                          ["two_places: beside it, at 100.510000000: two poses of this stamp are 3.04 m and 90 deg apart: are these "
                           "two recordings?"])
+
+    def test_images_under_another_sun_than_the_first_are_left_out_and_named(self):
+        by_clock = [("2024-07-01T12:00:0%d.000Z" % second, 3.0) for second in range(4)]
+        set_anew = [*by_clock[:2], ("2024-07-01T20:00:02.000Z", 5.0), by_clock[3]]
+        moved = [*by_clock[:3], (by_clock[3][0], 2.0)]
+        noon = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0, 3.0], suns=set_anew)
+        dusk = self.write("dusk.bag", "h20/", [0.5, 1.5, 2.5, 2.7], suns=moved)
+        rows, done = self.localise("out", "--map", noon, "--query", dusk, "--detectors", "sift", "--map-every", "0", status=3)
+        self.assertEqual([(row["pose"], row["status"]) for row in rows], [(str(pose), "localised") for pose in range(3)])
+        self.assertIn("3 key frames", done.stdout)
+        self.assertEqual([tuple(row.values()) for row in self.rows("out", "localisation_problems.csv")],
+                         [("h12", "map", "102.000000000",
+                           "other_sun: its sky is of 2024-07-01T20:00:02.000Z, not of 2024-07-01T12:00:00.000Z + 2 s as by the "
+                           "first capture: was the sun set meanwhile (set_date_time)?"),
+                          ("h20", "query", "103.000000000",
+                           "other_sun: its sun stands 49.8 deg from that of the captures before, farther than it turns meanwhile: "
+                           "was the site set (set_site)?")])
+        alone = self.write("alone.bag", "h16/", [0.5, 1.5, 2.5, 2.7], suns=by_clock)
+        self.localise("alone", "--map", alone, "--query", self.write("same.bag", "h18/", [0.6], suns=by_clock), "--detectors", "sift")
 
     def test_depth_that_comes_twice_is_counted(self):
         noon, dusk = self.bags()

@@ -8,6 +8,12 @@
 #include "sunlit/evaluate/same_place.h"
 
 namespace sunlit::evaluate {
+namespace {
+
+constexpr const char* kSunIsMendedBy =
+    " Left out; the same run again, with sun and site let alone, evaluates it";
+
+}  // namespace
 
 // Counts and names it where it is. A stream is where it is itself.
 bool Evaluation::State::isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::int64_t> pose,
@@ -81,12 +87,13 @@ void Evaluation::State::nameOtherSuns(std::size_t stream, const std::vector<Othe
   for (const OtherSun& other : others) {
     const std::optional<std::int64_t> pose = poses_.known(other.stamp_ns);
     if (pose && !isAskedFor(stream, other.stamp_ns, *pose)) continue;
-    report({kOtherSun, pose, other.stamp_ns, options_.streams[stream], other.fault});
+    const std::string fault = other.fault + kSunIsMendedBy;
+    report({kOtherSun, pose, other.stamp_ns, options_.streams[stream], fault});
     separate(other.stamp_ns);
     if (pictures_ && pose) pictures_->removeOf(options_.streams[stream], *pose, other.stamp_ns);
     if (++counts.other_sun > 1) continue;
     counts.other_sun_fault =
-        (pose ? "pose " + std::to_string(*pose) : formatStamp(other.stamp_ns)) + ": " + other.fault;
+        (pose ? "pose " + std::to_string(*pose) : formatStamp(other.stamp_ns)) + ": " + fault;
     if (callbacks_.note) callbacks_.note(options_.streams[stream] + ": " + counts.other_sun_fault);
   }
 }

@@ -18,7 +18,6 @@
 #include "evaluate/run/extreme_poses.h"
 #include "evaluate/run/observer.h"
 #include "evaluate/run/one_place.h"
-#include "evaluate/run/one_sun.h"
 #include "evaluate/run/pose_index.h"
 #include "evaluate/run/pose_work.h"
 #include "evaluate/run/record_files.h"
@@ -26,6 +25,7 @@
 #include "evaluate/run/work_queue.h"
 #include "sunlit/evaluate/comparisons/measured.h"
 #include "sunlit/evaluate/run/evaluation.h"
+#include "sunlit/evaluate/run/one_sun.h"
 #include "sunlit/evaluate/verify/verified_file.h"
 
 namespace sunlit::evaluate {

@@ -1,4 +1,4 @@
-#include "evaluate/run/one_sun.h"
+#include "sunlit/evaluate/run/one_sun.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -127,8 +127,7 @@ std::string OneSun::faultOf(const Seen& seen) const {
   const double passed_s = rateOf(*first_, *latest_) * secondsFrom(first_->stamp_ns, seen.stamp_ns);
   const std::string passed = std::abs(passed_s) < kSame_s ? "" : " + " + textOf(std::round(passed_s)) + " s";
   return "its sky is of " + seen.text + ", not of " + first_->text + passed +
-         " as by the first capture: was the sun set meanwhile (set_date_time)? Left out; the same run again, "
-         "with the sun let alone, evaluates it";
+         " as by the first capture: was the sun set meanwhile (set_date_time)?";
 }
 
 bool OneSite::jumps(const Seen& a, const Seen& b) {
@@ -155,8 +154,7 @@ std::string OneSite::faultOf(const CaptureRecord& capture) {
   }
   return "its sun stands " + textOf(apart_deg(*latest_, seen), 3) +
          " deg from that of the captures before, farther than it turns meanwhile: was the site set "
-         "(set_site)? "
-         "Left out; the same run again, with the site let alone, evaluates it";
+         "(set_site)?";
 }
 
 std::vector<OtherSun> Suns::add(const std::string& stream, const CaptureRecord& capture) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "evaluate/run/one_sun.h"
 #include "sunlit/evaluate/files/stream_name.h"
+#include "sunlit/evaluate/run/one_sun.h"
 #include "sunlit/evaluate/same_place.h"
 #include "sunlit/image/files.h"
 

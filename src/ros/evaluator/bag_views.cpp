@@ -12,12 +12,14 @@
 #include <set>
 #include <stdexcept>
 
+#include "ros/conversions/evaluation.h"
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/images.h"
 #include "ros/conversions/received_images.h"
 #include "ros/conversions/time.h"
 #include "ros/evaluator/bag_message.h"
 #include "ros/evaluator/bag_topics.h"
+#include "sunlit/evaluate/run/one_sun.h"
 #include "sunlit/evaluate/same_place.h"
 #include "sunlit/evaluate/trajectory/trajectory.h"
 #include "sunlit/quantity/frames.h"
@@ -120,7 +122,8 @@ struct BagViews::Index {
   ByStamp<sensor_msgs::CameraInfo> cameras;
   ByStamp<geometry_msgs::Pose> poses;
   ByStamp<std::string> two_places;  // how far apart poses of one stamp are
-  ByStamp<std::size_t> numbers;
+  ByStamp<evaluate::CaptureRecord> captures;
+  ByStamp<std::string> other_suns;  // their faults
 
   void name(const BagStream& stream, const ViewTopics& topics, const std::string& transport);
 };
@@ -149,6 +152,7 @@ BagViews::BagViews(const BagStream& stream, const ViewTopics& topics, const Inta
       index_(std::make_unique<Index>()) {
   index_->name(stream, topics, intake.transport);
   readIndex();
+  findOtherSuns();
   makeEntries();
 }
 
@@ -174,8 +178,8 @@ void BagViews::readIndex() {
     } else if (topic == index.poses_topic) {
       addPose(poseMessageOf(instance));
     } else {
-      const auto message = messageOf<Capture>(instance);
-      index.numbers.emplace(nanosecondsOf(message->header.stamp), message->pose_index);
+      const evaluate::CaptureRecord capture = captureOf(*messageOf<Capture>(instance));
+      index.captures.emplace(capture.stamp_ns, capture);
     }
   }
 }
@@ -194,14 +198,24 @@ void BagViews::addPose(const PoseMessage& message) {
   }
 }
 
+void BagViews::findOtherSuns() {
+  evaluate::Suns suns;
+  const auto note = [&](const std::vector<evaluate::OtherSun>& others) {
+    for (const evaluate::OtherSun& other : others)
+      index_->other_suns.emplace(other.stamp_ns, evaluate::kOtherSun + (": " + other.fault));
+  };
+  for (const auto& [stamp_ns, capture] : index_->captures) note(suns.add(stream_.stream, capture));
+  note(suns.finish(stream_.stream));
+}
+
 void BagViews::makeEntries() {
   bool are_numbered = true;
   for (const auto& [stamp_ns, image] : index_->images) {
     Entry entry = entryOf(stamp_ns);
-    const auto number = index_->numbers.find(stamp_ns);
-    if (number != index_->numbers.end()) entry.pose = number->second;
-    are_numbered = are_numbered && number != index_->numbers.end() &&
-                   (entries_.empty() || entries_.back().pose < entry.pose);
+    const auto capture = index_->captures.find(stamp_ns);
+    const bool is_numbered = capture != index_->captures.end();
+    if (is_numbered) entry.pose = static_cast<std::size_t>(capture->second.pose);
+    are_numbered = are_numbered && is_numbered && (entries_.empty() || entries_.back().pose < entry.pose);
     entries_.push_back(entry);
   }
   drive_ = stream_.bag;
@@ -223,6 +237,8 @@ BagViews::Entry BagViews::entryOf(std::int64_t stamp_ns) const {
   } catch (const std::invalid_argument& error) {
     entry.fault = error.what();
   }
+  const auto other_sun = index_->other_suns.find(stamp_ns);
+  if (entry.fault.empty() && other_sun != index_->other_suns.end()) entry.fault = other_sun->second;
   return entry;
 }
 

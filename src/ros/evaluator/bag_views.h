@@ -34,12 +34,14 @@ class BagViews {
     std::size_t pose = 0;
     evaluate::ViewCamera camera;
     Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
-    std::string fault;  ///< of camera or pose, "no camera_info of this stamp"; empty where both are there
+    /// Of camera, pose or sun, "no camera_info of this stamp"; empty where it can be used.
+    std::string fault;
     std::optional<std::int64_t> depth_stamp_ns;
   };
 
   /// Reads the bag once, keeping no pixels. Of several images, or other messages, of one stamp the first
-  /// counts; poses of it that are two places make a fault. Throws std::runtime_error for a bag that cannot be
+  /// counts; poses of it that are two places make a fault, and so does a capture under another sun than the
+  /// stream's first. Throws std::runtime_error for a bag that cannot be
   /// read, that holds no image of the stream, or whose messages are of another kind.
   BagViews(const BagStream& stream, const ViewTopics& topics, const IntakeOptions& intake);
   ~BagViews();
@@ -68,6 +70,7 @@ class BagViews {
   struct Index;
   void readIndex();
   void addPose(const PoseMessage& message);
+  void findOtherSuns();
   void makeEntries();
   Entry entryOf(std::int64_t stamp_ns) const;
   evaluate::ViewCamera cameraAt(std::int64_t stamp_ns) const;

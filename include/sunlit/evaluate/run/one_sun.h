@@ -20,7 +20,7 @@ inline constexpr const char* kOtherSun = "other_sun";
 /// A capture under another sun.
 struct OtherSun {
   std::int64_t stamp_ns = 0;
-  std::string fault;
+  std::string fault;  ///< in words, and what may have made it
 };
 
 /// The captures of one condition. Its sun is that of the first: it stands still, or its civil time goes on
