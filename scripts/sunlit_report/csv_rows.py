@@ -34,18 +34,18 @@ def number(text):
     return value
 
 
-def rows(path, header, kinds, older=None):
+def rows(path, header, kinds, older=()):
     """Dictionaries of a CSV file's rows; `kinds` are the columns that are no text. Nothing where there is no file. Files
-    of an `older` header do without the rest."""
+    of one of the `older` headers do without the rest."""
     lines = _lines(path, header, kinds, older)
     names = next(lines, ())
     for fields in lines:
         yield dict(zip(names, fields))
 
 
-def by_pose(path, header, keys, kinds, older=None):
-    """{texts of the columns `keys`: {column of `kinds`: array}}, by rising pose, of a file as above; NaN is what an `older`
-    one does without. Raises ReportError for a pose that is there twice."""
+def by_pose(path, header, keys, kinds, older=()):
+    """{texts of the columns `keys`: {column of `kinds`: array}}, by rising pose, of a file as above; NaN is what one of
+    an `older` header does without. Raises ReportError for a pose that is there twice."""
     lines = _lines(path, header, kinds, older)
     names = next(lines, ())
     if not names:
@@ -91,7 +91,7 @@ def _lines(path, header, kinds, older):
         lines = csv.reader(file, strict=True)
         try:
             names = next(lines, None)
-            if names not in [one.split(",") for one in (header, older or header)]:
+            if names not in [one.split(",") for one in (header, *older)]:
                 raise ReportError(f"{path}:1: the first line must be {header}")
             yield names
             places = [(names.index(name), kind) for name, kind in kinds.items() if name in names]

@@ -20,9 +20,9 @@ FRAMES = OLD_FRAMES + ",symmetric,one_to_one,matches_back,matches_one_to_one"
 OLD_SUMMARY = "a,b,difference,n,undefined,mean,sd,ci_low,ci_high"
 SUMMARY = OLD_SUMMARY + ",symmetric_mean,symmetric_sd,one_to_one_mean,one_to_one_sd,overmatched"
 _SKY = "sun_azimuth_deg,sun_elevation_deg,moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance"
-# Older captures do not tell how their exposure was chosen.
-OLD_CAPTURES = f"stream,pose,stamp,ev100,{_SKY}"
-CAPTURES = f"stream,pose,stamp,ev100,exposure_mode,{_SKY}"
+# Older captures do not tell the time of their sky, the oldest not how their exposure was chosen either.
+OLD_CAPTURES = (f"stream,pose,stamp,ev100,{_SKY}", f"stream,pose,stamp,ev100,exposure_mode,{_SKY}")
+CAPTURES = OLD_CAPTURES[1] + ",utc,utc_s"
 PATH = "pose,stamp,x,y,z,yaw_deg"
 PROBLEMS = "kind,pose,stamp,where,reason"
 LOCALISATION_PROBLEMS = "stream,role,stamp,fault"
@@ -196,7 +196,7 @@ def read_frames(path):
     counts = ("features_a", "features_b", "matches", "zero_second")
     forms = ("symmetric", "one_to_one")
     kinds = {"pose": whole, "value": number, **{name: whole for name in counts}, **{name: number for name in forms}}
-    found = by_pose(path, FRAMES, ("a", "b", "difference"), kinds, older=OLD_FRAMES)
+    found = by_pose(path, FRAMES, ("a", "b", "difference"), kinds, older=(OLD_FRAMES,))
     if not found:
         raise ReportError(f"{path}: holds no results")
     return {key: Series(**columns) for key, columns in found.items()}
@@ -216,7 +216,7 @@ def read_summary(path):
     kinds = {"n": whole, "undefined": whole, "mean": number, "sd": number, "ci_low": number, "ci_high": number,
              "symmetric_mean": number, "one_to_one_mean": number}
     return {(row["a"], row["b"], row["difference"]): Summary(**{name: row[name] for name in kinds if name in row})
-            for row in rows(path, SUMMARY, kinds, older=OLD_SUMMARY)}
+            for row in rows(path, SUMMARY, kinds, older=(OLD_SUMMARY,))}
 
 
 def columns(found, names):

@@ -28,7 +28,7 @@ FRAMES = (files.FRAMES + "\n0,1000.000000000,h04,h12,boolean_rgb,0.5,0,0,0,0,0.5
 VERIFIED = b"pose,stamp,a,b,detector,features_a\n0,1000.000000000,h04,h12,orb,3\n"
 RUN = b"settings:\n  differences: '[boolean_rgb, orb]'\n  verify: '[orb]'\nposes: 5\n"
 FOLDER = {"frames.csv": FRAMES, "run.yaml": RUN, "ground.yaml": b"ground_albedo: 0.2\n",
-          "captures.csv": (files.CAPTURES + "\nh04,0,1000.000000000,14,auto,90,20,nan,nan,nan,50000\n").encode(),
+          "captures.csv": (files.CAPTURES + "\nh04,0,1000.000000000,14,auto,90,20,nan,nan,nan,50000,2024-07-01T09:00:00.000Z,773139600\n").encode(),
           "path.csv": (files.PATH + "\n0,1000.000000000,0,0,1,90\n").encode(),
           "problems.csv": (files.PROBLEMS + "\nlost,3,,a,b\n").encode(),
           "map.yaml": b"x_min: 0\nx_max: 1\ny_min: 0\ny_max: 1\n",

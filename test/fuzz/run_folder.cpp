@@ -58,8 +58,9 @@ std::vector<std::string> seeds() {
           "100000000,"
           "h04,h12,orb,0.25,12,13,5,0,0.5,0.75,4,3\n",
       "stream,pose,stamp,ev100,exposure_mode,sun_azimuth_deg,sun_elevation_deg,moon_azimuth_deg,"
-      "moon_elevation_deg,moon_illuminated_fraction,scene_illuminance\nh04,0,1000.000000000,14,auto,90.5,20,"
-      "nan,nan,nan,50000\nh12,0,1000.000000000,14,fixed,180,50,10,-20,0.5,90000\n",
+      "moon_elevation_deg,moon_illuminated_fraction,scene_illuminance,utc,utc_s\n"
+      "h04,0,1000.000000000,14,auto,90.5,20,nan,nan,nan,50000,2024-07-01T01:00:00.000Z,773110800\n"
+      "h12,0,1000.000000000,14,fixed,180,50,10,-20,0.5,90000,,nan\n",
       "pose,stamp,x,y,z,yaw_deg\n0,1000.000000000,0,0,1,90\n1,1000.100000000,1,0,1,90\n",
       "kind,pose,stamp,where,reason\nmissing_partner,3,1000.300000000,h04-h12,\"no, \"\"h12\"\" "
       "came\"\nlost,,"

@@ -144,6 +144,19 @@ std::size_t leaveOutNamed(const std::string& folder, const std::vector<PairSpec>
   return dropped_lines;
 }
 
+/// Of pictures in `records`, which earlier runs evaluated.
+void takeUpSuns(const std::vector<PairSpec>& pairs, const std::vector<PairRecord>& records,
+                const RecordFiles& files, Suns& suns) {
+  std::set<std::pair<std::string, std::int64_t>> evaluated;  // streams and stamps
+  for (const PairRecord& record : records) {
+    const PairSpec& pair = pairs[record.pair];
+    evaluated.insert({{pair.a, record.stamp_ns}, {pair.b, record.stamp_ns}});
+  }
+  for (const auto& [key, capture] : files.captures()) {
+    if (evaluated.count({key.first, capture.stamp_ns}) != 0) suns.takeUp(key.first, capture);
+  }
+}
+
 }  // namespace
 
 Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks callbacks)
@@ -204,6 +217,8 @@ void Evaluation::State::settleTakenUp() {
     held_.emplace(std::make_pair(record.pose, record.pair), record.stamp_ns);
     ++counts_.pairs[record.pair].resumed;
   }
+  // Without a rate a clock that begins anew with each run may have other times at the same poses.
+  if (poses_.hasRate()) takeUpSuns(options_.pairs, records_, *record_files_, suns_);
 }
 
 void Evaluation::State::requireMergeable(const std::string& folder) const {

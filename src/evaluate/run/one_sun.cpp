@@ -157,6 +157,12 @@ std::string OneSite::faultOf(const CaptureRecord& capture) {
          "(set_site)?";
 }
 
+// Those that are of another sun were told of by the run that evaluated them.
+void Suns::takeUp(const std::string& stream, const CaptureRecord& capture) {
+  if (!capture.utc || !sites_[stream].faultOf(capture).empty()) return;
+  suns_[stream].add(capture);
+}
+
 std::vector<OtherSun> Suns::add(const std::string& stream, const CaptureRecord& capture) {
   if (!capture.utc || !come_.emplace(stream, capture.stamp_ns).second) return {};
   const std::string fault = sites_[stream].faultOf(capture);

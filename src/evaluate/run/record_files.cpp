@@ -1,6 +1,7 @@
 #include "evaluate/run/record_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "sunlit/evaluate/files/stream_name.h"
@@ -13,7 +14,8 @@ namespace {
 
 const char* const kCapturesHeader =
     "stream,pose,stamp,ev100,exposure_mode,sun_azimuth_deg,sun_elevation_deg,"
-    "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance";
+    "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance,utc,utc_s";
+constexpr double kFarthest_s = 1e12;  // beyond all years that an Instant is of
 const char* const kProblemsHeader = "kind,pose,stamp,where,reason";
 
 std::string lineOf(const std::string& stream, const CaptureRecord& c) {
@@ -21,7 +23,18 @@ std::string lineOf(const std::string& stream, const CaptureRecord& c) {
          formatNumber(c.ev100) + "," + csvField(c.exposure_mode) + "," + formatNumber(c.sun_azimuth_deg) +
          "," + formatNumber(c.sun_elevation_deg) + "," + formatNumber(c.moon_azimuth_deg) + "," +
          formatNumber(c.moon_elevation_deg) + "," + formatNumber(c.moon_illuminated_fraction) + "," +
-         formatNumber(c.scene_illuminance_lx) + "\n";
+         formatNumber(c.scene_illuminance_lx) + "," + csvField(c.utc_text) + "," +
+         formatNumber(c.utc ? c.utc->secondsSince(Instant()) : std::nan("")) + "\n";
+}
+
+CaptureRecord captureOf(const std::vector<std::string>& f) {
+  CaptureRecord capture{parsePose(f[1]),   parseStamp(f[2]),  parseNumber(f[3]), f[4],
+                        parseNumber(f[5]), parseNumber(f[6]), parseNumber(f[7]), parseNumber(f[8]),
+                        parseNumber(f[9]), parseNumber(f[10])};
+  capture.utc_text = f[11];
+  if (const double utc_s = parseNumber(f[12]); std::abs(utc_s) <= kFarthest_s)
+    capture.utc = Instant().plusSeconds(utc_s);
+  return capture;
 }
 
 std::string lineOf(const Problem& p) {
@@ -47,9 +60,7 @@ void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
   bool has_any = false;
   forEachCsvRow(folder + "/captures.csv", kCapturesHeader, [&](const std::vector<std::string>& f) {
     requireStreamName(f[0], "stream");
-    const CaptureRecord capture{parsePose(f[1]),   parseStamp(f[2]),  parseNumber(f[3]), f[4],
-                                parseNumber(f[5]), parseNumber(f[6]), parseNumber(f[7]), parseNumber(f[8]),
-                                parseNumber(f[9]), parseNumber(f[10])};
+    const CaptureRecord capture = captureOf(f);
     has_any = true;
     if (other_suns.count({capture.stamp_ns, f[0]}) == 0) keep(f[0], capture);
     poses.learn(capture.stamp_ns, capture.pose);

@@ -29,6 +29,8 @@ class RecordFiles {
   /// Of those of one stream and stamp the first counts that comes, as of images; one of an earlier run only
   /// where this `is_held`: its picture is not evaluated again.
   void add(const std::string& stream, const CaptureRecord& capture, bool is_held);
+  /// By stream, and then by pose.
+  const std::map<std::pair<std::string, std::int64_t>, CaptureRecord>& captures() const { return captures_; }
   void add(const PlaceRecord& place) { path_.add(place); }
   /// An image of this stamp came.
   void noteImage(std::int64_t stamp_ns) { path_.noteImage(stamp_ns); }

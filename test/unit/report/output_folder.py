@@ -141,8 +141,8 @@ def positions():
 def captures():
     """Lines of captures.csv: the sun sinks from hour to hour."""
     return ["stream,pose,stamp,ev100,exposure_mode,sun_azimuth_deg,sun_elevation_deg,"
-            "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance"] + [
-        f"{hour},{k},{k / 10},12.5,auto,{90 + 10 * n},{5 - 4 * n},nan,nan,nan,4321"
+            "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance,utc,utc_s"] + [
+        f"{hour},{k},{k / 10},12.5,auto,{90 + 10 * n},{5 - 4 * n},nan,nan,nan,4321,2024-07-01T00:{n:02d}:00.000Z,{773107200 + 60 * n}"
         for n, hour in enumerate(HOURS) for k in range(POSES)]
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What must hold of the report, on output folders made up here (output_folder.py)."""
 
+import csv
 import dataclasses
 import itertools
 import math
@@ -269,7 +270,12 @@ class Files(InFolder):
         columns = len(files.OLD_FRAMES.split(","))
         self.write("frames.csv", [",".join(line.split(",")[:columns]) for line in made.frames()])
         self.write("summary.csv", [files.OLD_SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85"])
-        self.assertEqual(tables.counts(self.read())[0]["forms"], ["0.84000", tables.MISSING, tables.MISSING])
+        for older in files.OLD_CAPTURES:
+            rows = csv.DictReader(made.captures())
+            self.write("captures.csv", [older, *(",".join(row[name] for name in older.split(",")) for row in rows)])
+            output = self.read()
+            self.assertEqual(output.captures["h04"]["scene_illuminance"][0], 4321)
+        self.assertEqual(tables.counts(output)[0]["forms"], ["0.84000", tables.MISSING, tables.MISSING])
 
     def test_pictures_under_another_sun_are_pointed_out_once(self):
         self.write("frames.csv", made.frames())
@@ -324,7 +330,7 @@ class Files(InFolder):
         told = [one for one in warnings.warnings(self.read()) if "single feature" in one]
         self.assertEqual(len(told), 1)
         self.assertIn("picture of 0 h: is it black", told[0])
-        self.write("captures.csv", [files.CAPTURES, "h00,0,0,14,auto,0,-11,0,0,0,0.25"])
+        self.write("captures.csv", [files.CAPTURES, "h00,0,0,14,auto,0,-11,0,0,0,0.25,,nan"])
         told = [one for one in warnings.warnings(self.read()) if "single feature" in one]
         self.assertIn("0 h (0.25 lx, exposed at EV100 14.0)", told[0])
 
@@ -362,7 +368,7 @@ class Files(InFolder):
     def test_malformed_other_files_are_named(self):
         self.write("frames.csv", made.frames())
         for name, lines, where in [("path.csv", [files.PATH, "0,0,east,0,0,0"], ":2: x is 'east'"),
-                                   ("captures.csv", [files.CAPTURES, "h04,0,0,bright,auto,0,0,0,0,0,0"], ":2: ev100"),
+                                   ("captures.csv", [files.CAPTURES, "h04,0,0,bright,auto,0,0,0,0,0,0,,nan"], ":2: ev100"),
                                    ("timing.csv", ["stage,seconds"], ":1"),
                                    ("run.yaml", ["settings:", "  a: [1,"], "run.yaml:"),
                                    ("map.yaml", ["x_min: 0"], "x_max"),
@@ -743,7 +749,7 @@ class Page(InFolder):
 
     def test_a_terminal_that_lacks_letters_is_no_reason_to_fail(self):
         self.write("frames.csv", made.frames(differences=["sift"]))
-        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,auto,0,-11,0,0,0,0.00084"])
+        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,auto,0,-11,0,0,0,0.00084,,nan"])
         for encoding, dash in (("ascii", "?"), ("iso-8859-1", "?"), ("utf-8", "–")):
             done = subprocess.run([sys.executable, REPORT, self.folder], capture_output=True, check=False,
                                   env=dict(os.environ, PYTHONIOENCODING=encoding))
@@ -787,7 +793,7 @@ class Page(InFolder):
         shown = [tables.significant(value) for value in (0.00084, 0.0009996, 0.25, 12.346, 99.96, 150.4, 98765.4, 0.0)]
         self.assertEqual(shown, ["0.000840", "0.00100", "0.250", "12.3", "100", "150", "98765", "0"])
         made.write_all(self.folder)
-        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,auto,0,-11,0,0,0,0.00084", "h04,1,1,14,auto,0,-11,0,0,0,0.00251"])
+        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,auto,0,-11,0,0,0,0.00084,,nan", "h04,1,1,14,auto,0,-11,0,0,0,0.00251,,nan"])
         self.assertEqual(tables.conditions(self.read())[0][4], "0.000840 to 0.00251")
 
     def test_whole_folder_gives_one_self_contained_page(self):

@@ -80,6 +80,9 @@ class OneSite {
 /// Those of all conditions, by their names.
 class Suns {
  public:
+  /// Of one whose picture an earlier run evaluated: what is added has to go on from its sun. Before any is
+  /// added, by rising stamp.
+  void takeUp(const std::string& stream, const CaptureRecord& capture);
   /// As OneSun::add(); nothing where `utc` is unknown. Of captures of one stamp the first counts.
   std::vector<OtherSun> add(const std::string& stream, const CaptureRecord& capture);
   std::vector<OtherSun> finish(const std::string& stream);

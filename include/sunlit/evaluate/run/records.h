@@ -21,7 +21,7 @@ struct CaptureRecord {
   double moon_elevation_deg = 0.0;         ///< apparent
   double moon_illuminated_fraction = 0.0;  ///< 0 new … 1 full
   double scene_illuminance_lx = 0.0;
-  std::optional<Instant> utc = {};  ///< civil time of its sky, where it is told; not kept in captures.csv
+  std::optional<Instant> utc = {};  ///< civil time of its sky, where it is told
   std::string utc_text = {};        ///< the same as it was told, or what was told instead of one
 };
 

@@ -304,8 +304,8 @@ TEST(Evaluation, NumbersPosesByTheirCaptures) {
   EXPECT_EQ(outcome.counts.pairs[0].evaluated, 4u);  // 0, 10, 20, 30
   EXPECT_TRUE(hasLine(contentOf(folder.file("out/frames.csv")), "30,521.000000000,h04,h12,boolean_rgb"));
   const std::string captures = contentOf(folder.file("out/captures.csv"));
-  EXPECT_TRUE(hasLine(captures, "h12,34,523.800000000,0,fixed,0,0,nan,-12.5,0.75,0"));
-  EXPECT_TRUE(hasLine(captures, "h12,35,524.500000000,0,auto,0,0,nan,-12.5,0.75,0"));
+  EXPECT_TRUE(hasLine(captures, "h12,34,523.800000000,0,fixed,0,0,nan,-12.5,0.75,0,,nan"));
+  EXPECT_TRUE(hasLine(captures, "h12,35,524.500000000,0,auto,0,0,nan,-12.5,0.75,0,,nan"));
 }
 
 TEST(Evaluation, NumbersPosesByTheFrameRate) {

@@ -396,8 +396,8 @@ TEST(TakenUpRun, NamesFileAndLineOfWhatItCannotRead) {
             out + "/problems.csv:2: \"9223372036854775808\" is not a pose number");
   EXPECT_EQ(refusal("captures.csv",
                     "stream,pose,stamp,ev100,exposure_mode,sun_azimuth_deg,sun_elevation_deg,"
-                    "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance\n"
-                    "h04,0,1,14,auto,90,20,nan,nan,nan,5\n"),
+                    "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance,utc,"
+                    "utc_s\nh04,0,1,14,auto,90,20,nan,nan,nan,5,,nan\n"),
             out + "/captures.csv:2: \"1\" is not a stamp with nine digits after the point");
   const std::string older =
       refusal("captures.csv",

@@ -255,6 +255,50 @@ TEST(OneSun, IsNotThatOfPicturesThatAreNotAskedFor) {
   EXPECT_EQ(evaluated(folder, {false, false}).counts.pairs[0].resumed, 4u);
 }
 
+// As where it is set while the renderer of the second run bakes: the sun that all its captures tell of jumps
+// nowhere.
+TEST(OneSun, IsThatOfWhatEarlierRunsEvaluated) {
+  for (const bool is_set : {false, true}) {
+    const TemporaryFolder folder;
+    EvaluationOptions options = optionsFor(folder);
+    options.frame_rate = 10.0;
+    options.stamp_start_ns = stampOf(0);
+    const auto evaluate = [&](std::int64_t first, std::int64_t end, bool other) {
+      Evaluation evaluation(options, {});
+      for (std::int64_t pose = first; pose < end; ++pose) {
+        CaptureRecord capture = captureAt(pose, 6.0 * static_cast<double>(pose));  // it moves
+        evaluation.addCapture(1, capture);
+        if (other) capture = captureAt(pose, -3 * kHour_s + 6.0 * static_cast<double>(pose));
+        evaluation.addCapture(0, capture);
+        feedPose(evaluation, pose);
+      }
+      return evaluation.finish();
+    };
+    evaluate(0, 3, false);
+    EXPECT_TRUE(hasLine(contentOf(folder.file("out/captures.csv")),
+                        "h04,2,500.200000000,0,,0,0,0,0,0,0,noon+12,12\n"));
+    const Outcome outcome = evaluate(3, 6, is_set);
+    EXPECT_EQ(outcome.counts.streams[0].other_sun, is_set ? 3u : 0u);
+    EXPECT_EQ(outcome.counts.streams[1].other_sun, 0u);
+    EXPECT_EQ(outcome.counts.pairs[0].resumed, 3u);
+    EXPECT_EQ(outcome.isWhole(), !is_set);
+    EXPECT_EQ(hasLine(contentOf(folder.file("out/problems.csv")),
+                      "other_sun,3,500.300000000,h04,\"its sky is of noon+-10782, not of noon+0 + 18 s"),
+              is_set);
+    EXPECT_TRUE(evaluate(3, 6, false).isWhole()) << "it is mended by the same run again";
+  }
+}
+
+// And of its site, where it stands still.
+TEST(OneSun, IsSeenFromTheSiteOfWhatEarlierRunsEvaluated) {
+  Suns suns;
+  CaptureRecord capture = captureAt(0, 0.0);
+  capture.sun_elevation_deg = 20.0;
+  suns.takeUp("h12", capture);
+  capture.sun_elevation_deg = 32.5;
+  EXPECT_EQ(suns.add("h12", capture).size(), 1u) << "also of the stamp of one that was taken up";
+}
+
 // Of two stamps of a pose the earlier counts, whatever the later one is.
 TEST(OneSun, OfALaterStampTakesNoPictureAway) {
   const TemporaryFolder folder;
