@@ -72,6 +72,17 @@ def evaluated_beyond(folder, poses):
             f"choose another output, or poses:={max(beyond) + 1} at least")
 
 
+def without_pictures(folder, streams, poses):
+    """Of how many of the first poses, which are not rendered again, this folder lacks a picture of any of these streams; empty where
+    of none."""
+    lacking = sum(not all(os.path.exists(os.path.join(folder, "images", stream, f"{pose:06d}.png")) for stream in streams)
+                  for pose in range(poses))
+    if not lacking:
+        return ""
+    return (f"images: {folder} lacks pictures of {lacking} of the {poses} poses that are evaluated already, and pictures are kept of "
+            "what is evaluated anew alone: choose another output to have all")
+
+
 def first_not_evaluated(folder, pairs, differences, features="{}"):
     """The first pose that frames.csv, and verified.csv where matches are verified, do not have whole, or under another sun; 0 where
     there is none.

@@ -38,6 +38,10 @@ class Beginning:
     def is_evaluated(self):
         return self.evaluated >= self.poses
 
+    def seen_before(self):
+        """The first poses, of which the evaluator sees nothing more."""
+        return self.poses if self.is_evaluated() else self.render_at()
+
 
 def check(typed, given=()):
     """Everything that can be refused by its text alone. `typed`: texts by name; `given`: names of those that the user gave."""

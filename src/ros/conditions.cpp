@@ -67,7 +67,7 @@ std::vector<Condition> readConditions(const ParameterReader& parameters) {
   } else if (value.getType() == XmlRpcValue::TypeStruct) {
     for (auto& member : value) add(member.first, member.second);
   }
-  if (conditions.empty()) refuseAll(row.allowed());
+  if (conditions.empty()) refuseAll(row.allowed() + notAsText(value));
   return conditions;
 }
 

@@ -186,6 +186,11 @@ std::string plainText(XmlRpcValue value) {
   return "{" + text + "}";
 }
 
+std::string notAsText(const XmlRpcValue& value) {
+  return value.getType() == XmlRpcValue::TypeString ? ", not a text (as which rosrun passes on _name:=value)"
+                                                    : "";
+}
+
 ParameterReader::ParameterReader(const ros::NodeHandle& node)
     : ParameterReader(fetch(node), node.getNamespace()) {}
 
@@ -250,7 +255,7 @@ void ParameterReader::read(const std::vector<Field>& rows) const {
     if (value == nullptr || std::holds_alternative<OwnForm>(field.place)) continue;
     const bool is_list = std::holds_alternative<std::vector<std::string>*>(field.place);
     if (is_list && value->getType() == XmlRpcValue::TypeString)
-      reject(field.key, *value, field.allowed() + ", not a text (as which rosrun passes on _name:=value)");
+      reject(field.key, *value, field.allowed() + notAsText(*value));
     std::optional<Field::Value> typed = asFieldValue(*value);
     if (!typed) reject(field.key, *value, field.allowed());
     expandHome(&*typed);

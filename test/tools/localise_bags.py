@@ -142,6 +142,28 @@ class LocaliseBags(unittest.TestCase):
         self.assertGreater(inliers["many"], 1.2 * inliers["orb"])
         self.assertIn("--detectors is [many, orb], but must be", self.refused(*drives))
 
+    def piped(self, text):
+        """A file that can be read once."""
+        reader, writer = os.pipe()
+        self.addCleanup(os.close, reader)
+        with os.fdopen(writer, "w") as file:
+            file.write(text)
+        return {"word": "/dev/fd/%d" % reader, "pass_fds": (reader,)}
+
+    def test_parameters_may_come_by_a_pipe(self):
+        noon, dusk = self.bags()
+        pipe = self.piped("{features: {many: {type: orb, n_features: 1000}}}")
+        rows, _ = self.localise("found", "--map", noon, "--query", dusk, "--detectors", "many", "--config", pipe.pop("word"), **pipe)
+        self.assertEqual(len(rows), 5)
+        with rosbag.Bag(noon, "a") as bag, rosbag.Bag(dusk) as other:
+            for topic, one, stamp in other.read_messages(["/h20/camera/image_raw"]):
+                bag.write(topic, one, stamp)
+        for text in ("{differences: [boolean_rgb]}", "{differences: [boolean_rgb], streams: [h12, h20]}"):
+            pipe, out = self.piped(text), "of_%d_letters" % len(text)
+            done = run("evaluate_bags", "--out", self.path(out), "--config", pipe.pop("word"), noon, **pipe)
+            self.assertEqual(done.returncode, 3, done.stderr)  # h12 goes on alone
+            self.assertEqual([(row["a"], row["difference"], row["n"]) for row in self.rows(out, "summary.csv")], [("h12", "boolean_rgb", "5")])
+
     def test_a_drive_is_found_in_the_map_of_another(self):
         noon, dusk = self.bags()
         rows, done = self.localise("out", "--map", noon, "--query", dusk, "--map-every", "2")
@@ -266,6 +288,19 @@ class LocaliseBags(unittest.TestCase):
         self.assertIn("a second stream would be called h20",
                       self.refused("--map", both + ":h12", "--query", both + ":h20,h20"))
         self.assertIn("holds no stream but the map's", self.refused("--map", both + ":h12,h20", "--query", both))
+
+    def test_bags_of_one_name_are_told_apart_by_their_folders(self):
+        for folder in ("monday/rainy", "tuesday/rainy", "dry"):
+            os.makedirs(self.path(folder))
+        unnamed = [self.write(folder + "/run.bag", "", [0.0, 1.0]) for folder in ("monday/rainy", "tuesday/rainy", "dry")]
+        rows, _ = self.localise("unnamed", "--map", unnamed[0], "--query", *unnamed[1:], "--detectors", "sift", "--map-every", "0")
+        self.assertEqual({(row["map"], row["query"]) for row in rows},
+                         {("monday_rainy_run", "tuesday_rainy_run"), ("monday_rainy_run", "dry_run")})
+        self.assertTrue(os.path.exists(self.path("unnamed/truth_tuesday_rainy_run.tum")))
+        named = [self.write(folder + "/run.bag", "h12/", [0.0, 1.0]) for folder in ("monday/rainy", "dry")]
+        named.append(self.write("else.bag", "h12/", [0.5]))
+        rows, _ = self.localise("named", "--map", named[0], "--query", *named[1:], "--detectors", "sift", "--map-every", "0")
+        self.assertEqual({(row["map"], row["query"]) for row in rows}, {("rainy_run_h12", "dry_run_h12"), ("rainy_run_h12", "else_h12")})
 
     def test_streams_of_a_bag_that_nobody_numbered_are_compared_where_they_were_taken(self):
         noon, _ = self.bags()

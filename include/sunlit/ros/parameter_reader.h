@@ -17,6 +17,9 @@ namespace sunlit::ros_interface {
 /// As a person would type it: lists in brackets, maps in braces, texts without quotes.
 std::string plainText(XmlRpc::XmlRpcValue value);
 
+/// What is said behind what a list or a map must be: empty unless `value` is a text.
+std::string notAsText(const XmlRpc::XmlRpcValue& value);
+
 /// The parameters of one node, fetched once. Every getter takes the key below the private namespace
 /// (`site/latitude`) and the default, and throws std::invalid_argument with full name, value and what is
 /// allowed. A number never is NaN or infinite. After the last getter call rejectUnknown().

@@ -106,15 +106,38 @@ std::vector<BagStream> queryStreams(const std::string& text, const ViewTopics& t
   return streamsOf(named, held);
 }
 
-/// Streams of one name, but of several bags, are called by their bags too, whether of the map or not.
+/// What a stream is called by its own name and so many of the last parts of its bag's path, of which the
+/// file's name is one; one that has no name of its own is called by that part anyway. Empty where there are
+/// fewer.
+std::string nameByBag(const BagStream& stream, std::size_t parts) {
+  const fs::path path = fs::absolute(stream.bag).lexically_normal().relative_path();
+  std::string name = stream.name;
+  fs::path folder = path.parent_path();
+  if (!stream.stream.empty() && parts > 0) {
+    name = path.stem().string() + "_" + name;
+    --parts;
+  }
+  for (; parts > 0; --parts, folder = folder.parent_path()) {
+    if (folder.empty()) return "";
+    name = folder.filename().string() + "_" + name;
+  }
+  return name;
+}
+
+/// Streams of one name, but of several bags, are called by their bags too, whether of the map or not; and by
+/// as many of the folders around them as tell them apart.
 std::vector<BagStream> toldApart(const std::vector<BagStream>& streams, const std::vector<BagStream>& all) {
   std::vector<BagStream> apart = streams;
   std::set<std::string> names;
   for (BagStream& stream : apart) {
-    const bool is_shared = std::any_of(all.begin(), all.end(), [&](const BagStream& other) {
-      return other.name == stream.name && !isSameStream(other, stream);
-    });
-    if (is_shared) stream.name = fs::path(stream.bag).stem().string() + "_" + stream.name;
+    const auto isShared = [&](std::size_t parts) {
+      return std::any_of(all.begin(), all.end(), [&](const BagStream& other) {
+        return nameByBag(other, parts) == nameByBag(stream, parts) && !isSameStream(other, stream);
+      });
+    };
+    std::size_t parts = 0;
+    while (isShared(parts) && !nameByBag(stream, parts + 1).empty()) ++parts;
+    stream.name = nameByBag(stream, parts);
     if (!names.insert(stream.name).second)
       throw std::invalid_argument(stream.bag + ": a second stream would be called " + stream.name +
                                   ": each counts once, and bags need names of their own");

@@ -23,10 +23,10 @@ struct LocalisationStreams {
 
 /// Each of `maps` and `queries` is "BAG" or "BAG:STREAM,STREAM"; what is a file as a whole is a BAG. A map's
 /// BAG without streams must have one only; of a query's, all count but those of the same bag that the map is
-/// made of. Streams are called by their names; those without a name, and those of several bags that have one
-/// name, by that of the bag, too. Throws std::runtime_error for a bag that cannot be read or has no such
-/// streams, and std::invalid_argument where the map, the queries or names of their own, in tables or
-/// in files, are missing.
+/// made of. Streams are called by their names, those without a name by that of the bag; of several bags,
+/// those of one name by that of the bag, too, and of bags of one name by the folders that tell these apart.
+/// Throws std::runtime_error for a bag that cannot be read or has no such streams, and std::invalid_argument
+/// where the map, the queries or names of their own, in tables or in files, are missing.
 LocalisationStreams localisationStreams(const std::vector<std::string>& maps,
                                         const std::vector<std::string>& queries, const ViewTopics& topics);
 

@@ -42,7 +42,8 @@ struct Options {
   BagEvaluationOptions evaluation;
   BagLocalisationOptions localisation;
   std::string config;                    ///< file; empty: none
-  std::optional<EvaluatorOptions> read;  ///< of that file
+  XmlRpc::XmlRpcValue parameters;        ///< of that file, which may be a pipe and is read once
+  std::optional<EvaluatorOptions> read;  ///< the same
   double features_cache_gb = evaluate::kUsualFeaturesCache_gb;
 };
 
@@ -67,14 +68,23 @@ void completeLocalisation(Options* options) {
   if (options->read) localisation.intake = options->read->intake;
 }
 
+/// Of the file; and those that a node needs, where it lacks them.
+ParameterReader parametersIn(const Options& options, const std::vector<std::string>& streams) {
+  XmlRpc::XmlRpcValue tree = options.parameters;
+  for (const auto& [key, value] : usualParameters(streams)) {
+    if (!tree.hasMember(key)) tree[key] = value;
+  }
+  return {tree, options.config};
+}
+
 /// Of the file, if there is one, or the defaults; without streams there, all that the bags hold.
 EvaluatorOptions parametersFor(const Options& options) {
   const BagEvaluationOptions& evaluation = options.evaluation;
   if (options.config.empty())
     return readEvaluatorOptions(ParameterReader(usualParameters(streamsOf(evaluation)), "defaults"));
-  const bool by_bags = !parametersOfFile(options.config).has("streams") && !evaluation.bags.empty();
-  return readEvaluatorOptions(parametersOfFile(
-      options.config, usualParameters(by_bags ? streamsOf(evaluation) : std::vector<std::string>())));
+  const bool by_bags = !options.parameters.hasMember("streams") && !evaluation.bags.empty();
+  return readEvaluatorOptions(
+      parametersIn(options, by_bags ? streamsOf(evaluation) : std::vector<std::string>()));
 }
 
 /// Of what is evaluated.
@@ -115,7 +125,8 @@ void readConfig(const std::vector<std::string>& arguments, Options* options) {
   }
   if (options->config.empty()) return;
   // Which streams there are is not asked here.
-  options->read = readEvaluatorOptions(parametersOfFile(options->config, usualParameters({"any"})));
+  options->parameters = readParameterFile(options->config);
+  options->read = readEvaluatorOptions(parametersIn(*options, {"any"}));
   options->localisation.localisation.known = options->read->evaluation.comparer.known;
   options->features_cache_gb = options->read->features_cache_gb;
 }

@@ -49,7 +49,7 @@ std::vector<evaluate::PairSpec> readPairs(const ParameterReader& parameters, con
     pairs.push_back(*pair);
   }
   if (!is_list || pairs.size() < static_cast<std::size_t>(value.size()))
-    refuse("parameter " + parameters.fullName(row.key), plainText(value), row.allowed());
+    refuse("parameter " + parameters.fullName(row.key), plainText(value), row.allowed() + notAsText(value));
   return pairs;
 }
 
@@ -78,7 +78,7 @@ std::vector<std::pair<std::string, std::string>> readAbout(const ParameterReader
   XmlRpcValue value = parameters.value(row.key);
   if (!value.valid()) return about;
   if (value.getType() != XmlRpcValue::TypeStruct)
-    refuse("parameter " + parameters.fullName(row.key), plainText(value), row.allowed());
+    refuse("parameter " + parameters.fullName(row.key), plainText(value), row.allowed() + notAsText(value));
   for (auto& member : value) about.emplace_back(member.first, plainText(member.second));
   return about;
 }

@@ -33,8 +33,13 @@ std::vector<Field> fieldsOfOwnDetector(evaluate::Preprocessings& preprocessings)
 /// allowed.
 EvaluatorOptions readEvaluatorOptions(const ParameterReader& parameters);
 
-/// A YAML file as parameters, for programs without a master: what rosparam would read in it, but for tags;
-/// and those of `usual`, a map, that it lacks. Throws std::runtime_error with path and line.
-ParameterReader parametersOfFile(const std::string& path, XmlRpc::XmlRpcValue usual = {});
+/// A YAML file of parameters, for programs without a master: what rosparam would read in it, but for tags.
+/// Throws std::runtime_error with path and line.
+XmlRpc::XmlRpcValue readParameterFile(const std::string& path);
+
+/// The same as parameters.
+inline ParameterReader parametersOfFile(const std::string& path) {
+  return {readParameterFile(path), path};
+}
 
 }  // namespace sunlit::ros_interface

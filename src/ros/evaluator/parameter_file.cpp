@@ -75,7 +75,7 @@ int secondDocument(const std::string& text) {
 
 }  // namespace
 
-ParameterReader parametersOfFile(const std::string& path, XmlRpcValue usual) {
+XmlRpcValue readParameterFile(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be opened");
   const std::string text = utf8Of({std::istreambuf_iterator<char>(file), {}}, path);
@@ -92,12 +92,7 @@ ParameterReader parametersOfFile(const std::string& path, XmlRpcValue usual) {
   } catch (const YAML::Exception& error) {
     fail(error.mark.line, error.msg);
   }
-  if (usual.valid()) {
-    for (const auto& [key, value] : usual) {
-      if (!tree.hasMember(key)) tree[key] = value;
-    }
-  }
-  return ParameterReader(tree, path);
+  return tree;
 }
 
 }  // namespace sunlit::ros_interface

@@ -536,6 +536,21 @@ class Plan(unittest.TestCase):
                 verified.writelines("0,1000.0,%s,%s,orb,3\n" % pair for pair in evaluated[0])
             self.assertEqual(begins("all"), 1)
 
+    def test_pictures_that_an_earlier_run_did_not_keep_are_told_of(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def told(poses):
+                return earlier_run.without_pictures(folder, ["h04", "h12"], poses)
+            self.assertEqual(told(0), "")
+            for stream, poses in (("h04", (0, 1, 2)), ("h12", (0, 2))):
+                os.makedirs(os.path.join(folder, "images", stream))
+                for pose in poses:
+                    open(os.path.join(folder, "images", stream, "%06d.png" % pose), "w").close()
+            self.assertEqual(told(1), "")
+            self.assertEqual(told(4), f"images: {folder} lacks pictures of 2 of the 4 poses that are evaluated already, and pictures are "
+                                      "kept of what is evaluated anew alone: choose another output to have all")
+        self.assertEqual(plan.Beginning(20, evaluated=15, recorded=8).seen_before(), 8)
+        self.assertEqual(plan.Beginning(20, evaluated=20, recorded=8).seen_before(), 20)
+
     def test_an_earlier_run_is_not_taken_up_with_fewer_poses_than_it_evaluated(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(earlier_run.evaluated_beyond(folder, 3), "")

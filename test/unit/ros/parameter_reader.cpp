@@ -163,6 +163,14 @@ TEST(Conditions, AreAListOfNamesOrAMapOrASingleUnnamedOne) {
   ASSERT_EQ(usual.size(), 1u);
   EXPECT_EQ(usual[0].parameters.integer("date_time/hour", 0), 7);
 
+  XmlRpcValue text;
+  text["conditions"] = std::string("[noon, dusk]");
+  const std::string refused = messageOf([&] { readConditions(ParameterReader(text, "/node")); });
+  EXPECT_NE(
+      refused.find("{h04: {hour: 4}, h12: {hour: 12}}, not a text (as which rosrun passes on _name:=value)"),
+      std::string::npos)
+      << refused;
+
   const auto single = readConditions(ParameterReader(exampleTree(), "/node"));
   ASSERT_EQ(single.size(), 1u);
   EXPECT_EQ(single[0].frame("sun"), "sun");
