@@ -39,9 +39,20 @@ std::string within(const std::string& kind, const Field& field) {
   return kind + " " + field.range.words() + unit;
 }
 
+/// "1e1" and "1.5e3" are texts by YAML 1.1, which rosparam reads: it knows no exponent but behind a point,
+/// and with a sign.
+std::optional<double> numberWithExponent(const std::string& text) {
+  if (text.find_first_of("eE") == std::string::npos) return std::nullopt;
+  if (text.find_first_not_of("+-.0123456789eE") != std::string::npos) return std::nullopt;
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return *end == '\0' && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
 std::optional<double> numberIn(const Value& value) {
   if (const auto* whole = std::get_if<int>(&value)) return *whole;
   if (const auto* real = std::get_if<double>(&value)) return *real;
+  if (const auto* text = std::get_if<std::string>(&value)) return numberWithExponent(*text);
   return std::nullopt;
 }
 

@@ -158,6 +158,10 @@ class LocaliseBags(unittest.TestCase):
         with rosbag.Bag(noon, "a") as bag, rosbag.Bag(dusk) as other:
             for topic, one, stamp in other.read_messages(["/h20/camera/image_raw"]):
                 bag.write(topic, one, stamp)
+        pipe = self.piped("{differences: [boolean_rgb], memory_limit: 1e1, about: {as_rosparam: [1e1, y, 08, 1.5e+1, 0x10, on, '7']}}")
+        run("evaluate_bags", "--out", self.path("read"), "--config", pipe.pop("word"), noon, **pipe)
+        with open(self.path("read/run.yaml")) as file:
+            self.assertIn("about/as_rosparam: '[1e1, y, 08, 15, 16, true, 7]'\n", file.read())
         for text in ("{differences: [boolean_rgb]}", "{differences: [boolean_rgb], streams: [h12, h20]}"):
             pipe, out = self.piped(text), "of_%d_letters" % len(text)
             done = run("evaluate_bags", "--out", self.path(out), "--config", pipe.pop("word"), noon, **pipe)
@@ -253,6 +257,18 @@ class LocaliseBags(unittest.TestCase):
         with open(os.path.join(self.path("out"), "truth_other.tum")) as file:
             positions = [float(line.split()[1]) for line in file if not line.startswith("#")]
         numpy.testing.assert_allclose(positions, [0.5013, 1.4988], atol=1e-6)  # stamps are whole microseconds
+
+    def test_images_of_a_robot_that_are_compressed_alone_need_not_be_called_so(self):
+        ours = self.write("ours.bag", "", [0.0, 1.0, 2.0])
+        rows = {}
+        for name, word in (("short", "/camera/image_raw"), ("whole", "/camera/image_raw/compressed")):
+            theirs = self.write(name + ".bag", "", [0.5, 1.5], png=True)
+            rows[name], _ = self.localise(name, "--map", ours, "--query", theirs, "--detectors", "sift", "--images", word)
+            self.assertEqual([row["status"] for row in rows[name]], ["localised"] * 2)
+        self.assertEqual([row["error_m"] for row in rows["short"]], [row["error_m"] for row in rows["whole"]])
+        png = self.write("png.bag", "drone/", [0.5, 1.5], png=True)
+        rows, _ = self.localise("drone", "--map", ours, "--query", png, "--detectors", "sift", "--images", "drone/camera/image_raw")
+        self.assertEqual([row["query"] for row in rows], ["png"] * 2, "with the camera_info beside it")
 
     def test_a_robots_bag_in_a_map_of_ours(self):
         ours = self.write("ours.bag", "", [0.0, 1.0, 2.0])

@@ -68,7 +68,7 @@ struct Field {
   Value value() const;
   std::string text() const;
   /// All three throw std::invalid_argument naming key, value and what is allowed; `called` stands in for the
-  /// key, such as "--turbidity" or "parameter /render/atmosphere/turbidity". As text, words are "a,b".
+  /// key: "--fov" or "parameter /render/atmosphere/turbidity". As text, words are "a,b"; set() takes "1e3".
   void set(const Value& value, const std::string& called) const;
   void setText(const std::string& text, const std::string& called) const;
   void require() const;

@@ -162,7 +162,7 @@ std::vector<VerifiedSummaryRow> Evaluation::State::writeVerifiedSummaries() cons
 // where this run is stopped before it makes its own.
 void Evaluation::State::forgetEarlierResults() {
   std::filesystem::remove(file("comparisons.csv"));
-  if (observer_ && canLocalise() && localisedBefore().empty()) forgetLocalised();
+  if (observer_ && canLocalise()) forgetLocalised();
 }
 
 void Evaluation::State::compareMethods(const StopToken& stop) {

@@ -236,7 +236,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
 // By a run that was whole, and has forgotten its observations; empty where this one has any, or others than
 // these poses were localised.
 std::vector<LocalisationRow> Evaluation::State::localisedBefore() const {
-  if (!options_.merge.empty() || !observer_->observations().keys().empty()) return {};
+  if (canLocalise()) return {};
   if (!std::filesystem::exists(file(kRows))) return {};
   const std::vector<LocalisationRow> rows = loadLocalisation(file(kRows));
   {

@@ -36,7 +36,7 @@ NamedBag namedBag(const std::string& text) {
 
 std::vector<std::string> imageStreamsIn(const std::string& bag, const ViewTopics& topics) {
   const std::set<std::string> held = topicsIn({bag});
-  if (held.count(topics.images) > 0) return {""};
+  if (!heldImages(topics.images, held).empty()) return {""};
   std::vector<std::string> streams = streamsIn({bag}, topics.name_space);
   const std::string root = rootOf(topics.name_space);
   for (const char* kind : {topics::kImage, topics::kCompressedImage}) {
@@ -168,7 +168,9 @@ void requireHeld(const ViewTopics& topics, const std::vector<BagStream>& streams
                                       {"--camera-info", &topics.camera_info},
                                       {"--depth", &topics.depth},
                                       {"--poses", &topics.poses}}) {
-    if (!topic->empty() && held.count(*topic) == 0) {
+    const bool is_there =
+        topic == &topics.images ? !heldImages(*topic, held).empty() : held.count(*topic) > 0;
+    if (!topic->empty() && !is_there) {
       throw std::runtime_error(std::string(option) + " is " + *topic +
                                ", but must be a topic that a bag holds; they hold: " + topicsInWords(held));
     }

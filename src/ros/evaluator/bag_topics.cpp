@@ -105,6 +105,11 @@ std::string topicOf(const std::string& root, const std::string& stream, const ch
   return root + (stream.empty() ? "" : stream + "/") + name;
 }
 
+std::string heldImages(const std::string& topic, const std::set<std::string>& held) {
+  if (topic.empty() || held.count(topic) > 0) return topic;
+  return held.count(topic + kCompressedEnding) > 0 ? topic + kCompressedEnding : "";
+}
+
 std::string imageTopic(const std::string& root, const std::string& stream, const std::string& transport,
                        const std::set<std::string>& held) {
   const std::string raw = topicOf(root, stream, topics::kImage);

@@ -38,6 +38,13 @@ std::vector<std::string> streamsIn(const std::vector<std::string>& bags, const s
 /// "root/stream/name", and of a stream without a name "root/name".
 std::string topicOf(const std::string& root, const std::string& stream, const char* name);
 
+/// Behind the name of a topic, of the same images as PNG or JPEG.
+inline constexpr const char* kCompressedEnding = "/compressed";
+
+/// The topic that is said to have images, or that with /compressed where the bags hold this alone; empty
+/// where they hold neither.
+std::string heldImages(const std::string& topic, const std::set<std::string>& held);
+
 /// The topic of a stream's images, of which `held` has some; where they are there twice, one kind counts:
 /// compressed for that `transport`, else raw, and it is said which. Throws std::runtime_error where there are
 /// none.

@@ -106,7 +106,7 @@ std::string calledOr(const std::string& said, const char* usual) {
 
 /// /camera/color/camera_info of /camera/color/image_raw/compressed.
 std::string infosBeside(std::string images) {
-  const std::string compressed = "/compressed";
+  const std::string compressed = kCompressedEnding;
   if (images.size() > compressed.size() &&
       images.compare(images.size() - compressed.size(), std::string::npos, compressed) == 0)
     images.erase(images.size() - compressed.size());
@@ -135,8 +135,9 @@ void BagViews::Index::name(const BagStream& stream, const ViewTopics& topics, co
   const auto choose = [&](const std::string& said, const std::string& usual) {
     return held.count(said) > 0 ? said : usual;
   };
-  const bool is_foreign = held.count(topics.images) > 0;
-  images_topic = is_foreign ? topics.images : imageTopic(root, stream.stream, transport, held);
+  const std::string foreign = heldImages(topics.images, held);
+  const bool is_foreign = !foreign.empty();
+  images_topic = is_foreign ? foreign : imageTopic(root, stream.stream, transport, held);
   infos_topic = choose(topics.camera_info, is_foreign ? infosBeside(topics.images)
                                                       : topicOf(root, stream.stream, topics::kCameraInfo));
   captures_topic = topicOf(root, stream.stream, topics::kCapture);

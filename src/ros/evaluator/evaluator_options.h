@@ -33,8 +33,9 @@ std::vector<Field> fieldsOfOwnDetector(evaluate::Preprocessings& preprocessings)
 /// allowed.
 EvaluatorOptions readEvaluatorOptions(const ParameterReader& parameters);
 
-/// A YAML file of parameters, for programs without a master: what rosparam would read in it, but for tags.
-/// Throws std::runtime_error with path and line.
+/// A YAML file of parameters, for programs without a master: what rosparam would read in it, but for tags,
+/// and for numbers such as 1_000, 12:30 and 0b11, which stay texts. Throws std::runtime_error with path and
+/// line.
 XmlRpc::XmlRpcValue readParameterFile(const std::string& path);
 
 /// The same as parameters.

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -17,13 +18,26 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-// As rosparam reads it: only text without quotes may be a number or a truth value.
+/// Of YAML 1.1 (PyYAML's resolver), where yaml-cpp takes 1e1 and 08, too.
+bool isNumber(const std::string& text) {
+  static const std::regex form(
+      "[-+]?(0[0-7]*|[1-9][0-9]*|0x[0-9a-fA-F]+)|([-+]?[0-9]+\\.[0-9]*|\\.[0-9]+)([eE][-+][0-9]+)?|"
+      "[-+]?\\.(inf|Inf|INF)|\\.(nan|NaN|NAN)");
+  constexpr std::size_t kLongest = 100;  // std::regex needs stack for each letter
+  return text.size() <= kLongest && std::regex_match(text, form);
+}
+
+// As rosparam reads it: only text without quotes may be a number or a truth value, and y and n are texts.
 XmlRpcValue valueOfText(const YAML::Node& node) {
   const std::string plain = "?";  // yaml-cpp's tag of such text
-  if (int whole = 0; node.Tag() == plain && YAML::convert<int>::decode(node, whole)) return whole;
-  if (double number = 0.0; node.Tag() == plain && YAML::convert<double>::decode(node, number)) return number;
-  if (bool flag = false; node.Tag() == plain && YAML::convert<bool>::decode(node, flag)) return flag;
-  return node.Scalar();
+  const std::string& text = node.Scalar();
+  if (node.Tag() != plain) return text;
+  if (isNumber(text)) {
+    if (int whole = 0; YAML::convert<int>::decode(node, whole)) return whole;
+    if (double number = 0.0; YAML::convert<double>::decode(node, number)) return number;
+  }
+  if (bool flag = false; text.size() > 1 && YAML::convert<bool>::decode(node, flag)) return flag;
+  return text;
 }
 
 /// Anchors let a few lines stand for any number of values, and hold themselves.

@@ -15,7 +15,8 @@ std::vector<Field> fieldsOf(ViewTopics& topics) {
            &topics.images,
            "",
            {},
-           "topic of images, raw or compressed, in bags that do not call it <stream>/camera/image_raw; such "
+           "topic of images, raw or compressed (/compressed may be left out), in bags that do not call it "
+           "<stream>/camera/image_raw; such "
            "a bag "
            "has this stream alone"},
           {"camera_info",

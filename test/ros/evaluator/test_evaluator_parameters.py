@@ -106,6 +106,15 @@ class TestParameters(unittest.TestCase):
         streams.close()
         self.assertEqual(runs[0], runs[1])
 
+    def test_numbers_with_an_exponent_are_numbers(self):
+        self.assertEqual(yaml.safe_load('1e-1'), '1e-1', 'a text, as which rosparam sends it')
+        limits = {}
+        for limit in ('1e-1', '1e-4'):
+            evaluator = Evaluator(dict(self.settings, memory_limit=limit, exit_when_done=True, idle_timeout='1e-1'))
+            _, limits[limit] = evaluator.wait()
+        self.assertIn('no pair of images came at all', limits['1e-1'])
+        self.assertIn('memory_limit is 0.0001, but must be from 0.001', limits['1e-4'])
+
     def test_ctrl_c_while_the_node_starts_still_writes_results(self):
         run_file = self.settings['output_dir'] + '/run.yaml'
         os.mkdir(self.settings['output_dir'])

@@ -15,7 +15,7 @@ import rostest
 import yaml
 from launching import DIFFERENCES, LONG, POSES, WORLD, Launched, Terminal, kill_leftovers, small_experiment
 from std_srvs.srv import Trigger
-from sunlit.srv import SetDateTime
+from sunlit.srv import SetDateTime, SetSite
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
 from screen import Screen  # noqa: E402
@@ -212,6 +212,28 @@ class ExperimentRuns(unittest.TestCase):
         self.assertEqual(again.end(), 0, again.said())
         self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
         self.assertNotIn(b"other_sun", self.bytes_of(output, "problems.csv"))
+
+    def test_so_is_a_site_that_is_set_meanwhile(self):
+        output = os.path.join(self.folder, "moved_meanwhile")
+        captures = os.path.join(output, "captures.csv")
+        run = small_experiment(output, max_ahead=1)
+        run.wait_for(lambda: os.path.exists(captures) and self.bytes_of(output, "captures.csv").count(b"\nh12,") > 2, "rendered poses")
+        self.assertTrue(run.call("/render/pause", Trigger).success)
+        self.assertTrue(run.call("/h12/sun_position/set_site", SetSite, latitude=-20.0, longitude=49.0, elevation=90.0, pressure=1000.0,
+                                 temperature=20.0).success)
+        self.assertTrue(run.call("/render/start", Trigger).success)
+        self.assertNotEqual(run.end(), 0)
+        with open(os.path.join(output, "problems.csv")) as file:
+            others = [row for row in csv.DictReader(file) if row["kind"] == "other_sun" and row["where"] == "h12"]
+        of_h12 = [int(row["pose"]) for row in others]
+        self.assertEqual(of_h12, list(range(of_h12[0], POSES)))
+        self.assertGreater(of_h12[0], 1)
+        self.assertTrue(all("from that of the captures before, farther than it turns meanwhile: was the site set (set_site)?"
+                            in row["reason"] for row in others), others)
+        self.assertIn("%d other_sun (h10-h12)" % len(of_h12), run.said())
+        again = small_experiment(output)
+        self.assertEqual(again.end(), 0, again.said())
+        self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
 
     def test_on_a_terminal_the_line_stays_in_place(self):
         terminal = Terminal(24, 100)

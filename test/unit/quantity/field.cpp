@@ -55,6 +55,22 @@ std::string refusalOf(const std::string& key, const Field::Value& value) {
   return messageOf([&] { fieldOf(fieldsOf(options), key).set(value, key); });
 }
 
+TEST(Field, TakesNumbersWithAnExponentThatYamlTakesForTexts) {
+  Options options;
+  const std::vector<Field> rows = fieldsOf(options);
+  fieldOf(rows, "hazy").set(std::string("1e1"), "hazy");
+  EXPECT_EQ(options.hazy, 10.0);
+  fieldOf(rows, "rays").set(std::string("1.6E1"), "rays");
+  EXPECT_EQ(options.rays, 16);
+  fieldOf(rows, "start").set(std::string("+5e-1"), "start");
+  EXPECT_EQ(options.start, 0.5);
+  EXPECT_EQ(refusalOf("hazy", std::string("1e2")), "hazy is 100, but must be from 1 to 10 m");
+  for (const char* text : {"5", "e1", "1e", "1e1m", "1e999", "0x1e1", " 1e1", ""}) {
+    EXPECT_EQ(refusalOf("hazy", std::string(text)),
+              "hazy is \"" + std::string(text) + "\", but must be a number from 1 to 10 m");
+  }
+}
+
 TEST(Range, SaysWhatItHoldsInWordsAndSymbols) {
   EXPECT_EQ((Range{1, 10}.words()), "from 1 to 10");
   EXPECT_EQ((Range{1, 10}.symbols()), "1 … 10");
