@@ -24,10 +24,16 @@ float largestOf(const float* row) {
   return *std::max_element(lanes, lanes + kLanes);
 }
 
-SUNLIT_WIDE_VECTOR_CLONES
-void roundTimes(float factor, const float* __restrict row, std::uint8_t* __restrict to) {
-  for (std::size_t p = 0; p < SkyPatches::kCount; ++p)
-    to[p] = static_cast<std::uint8_t>(static_cast<int>(row[p] * factor + 0.5f));
+/// Sums are rounded, not values: most of a row may be of many patches, each less than half a step.
+void roundTimes(float factor, const float* row, std::uint8_t* to) {
+  float sum = 0.0f;
+  int before = 0;
+  for (std::size_t p = 0; p < SkyPatches::kCount; ++p) {
+    sum += row[p] * factor;
+    const int up_to_here = static_cast<int>(sum + 0.5f);
+    to[p] = static_cast<std::uint8_t>(std::min(up_to_here - before, 255));
+    before = up_to_here;
+  }
 }
 
 }  // namespace

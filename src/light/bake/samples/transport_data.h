@@ -23,7 +23,8 @@ struct Coefficients {
   image::KeptArray<float> scales;
 
   void resize(std::size_t samples);
-  /// Stores `row` of SkyPatches::kCount values ≥ 0.
+  /// Stores `row` of SkyPatches::kCount values ≥ 0, each within 1/255 of the largest, and so is the sum of
+  /// all up to each.
   void set(std::size_t sample, const float* row);
   /// Stores the row `from` of others.
   void copy(const Coefficients& others, std::size_t from, std::size_t sample);
