@@ -7,8 +7,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xmlrpc.client
 
-import rosnode
 import rospkg
 import rospy
 import rostest
@@ -207,7 +207,8 @@ class TestParameters(unittest.TestCase):
         for stream in range(2):
             streams.send(stream, stamp_of(0), picture(0, stream))
         wait_until(lambda: 'reporting' in doing, 'the report')
-        rosnode.kill_nodes(['/' + evaluator.name])
+        _, _, api = rospy.get_master().lookupNode('/' + evaluator.name)
+        xmlrpc.client.ServerProxy(api).shutdown(rospy.get_name(), 'as rosnode kill says')
         status, output = evaluator.wait()
         self.assertEqual(status, 0, output)
         self.assertIn('interrupted before the report was drawn', output)
