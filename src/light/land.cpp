@@ -100,7 +100,7 @@ double albedoOf(const Spot& spot, const FromAbove& above, const Reflectances& re
   const bool front = geometry.planes[spot.triangle].normal.z() > 0.0f;
   Paint paint = reflectances.at({spot.triangle, front}, spot.within);
   paint.albedo *= 1.0f - above.materialOf(spot.triangle).transmission;
-  return static_cast<double>(LinearRgb(reflectance(paint, kMeanView).all()).luminance());
+  return static_cast<double>(LinearRgb(meanReflectance(paint).all()).luminance());
 }
 
 std::optional<double> meanAlbedo(const World& world) {

@@ -241,4 +241,16 @@ Reflectance reflectance(const Paint& paint, float n_v) {
   return {ambient.diffuse * kPiFloat, ambient.specular};
 }
 
+Reflectance meanReflectance(const Paint& paint) {
+  constexpr int kViews = 8;  // the mirrored light is within 3 %, a thousandth of what arrives
+  Reflectance mean{Eigen::Array3f::Zero(), Eigen::Array3f::Zero()};
+  for (int i = 0; i < kViews; ++i) {
+    const float cosine = (static_cast<float>(i) + 0.5f) / kViews;
+    const Reflectance seen = reflectance(paint, cosine);
+    mean.diffuse += 2.0f * cosine / kViews * seen.diffuse;
+    mean.mirrored += 2.0f * cosine / kViews * seen.mirrored;
+  }
+  return mean;
+}
+
 }  // namespace sunlit::light

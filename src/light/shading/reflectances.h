@@ -32,8 +32,9 @@ struct Reflectance {
 };
 /// `n_v`: cosine between normal and eye. Without transmission.
 Reflectance reflectance(const Paint& paint, float n_v);
-/// Seen at 50° from the normal, which is about the mean of a hemisphere.
-constexpr float kMeanView = 0.64f;
+/// The mean over all views, by cosine: what becomes of light from all around as a whole. At grazing angles
+/// even rough surfaces mirror several times as much as at any other.
+Reflectance meanReflectance(const Paint& paint);
 
 class Reflectances {
  public:

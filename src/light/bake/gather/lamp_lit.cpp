@@ -98,7 +98,7 @@ class LitTriangle {
     float looked;  ///< share of it that is looked for
   };
   void add(const Lit& lit, std::vector<AreaLights::Piece>* pieces) const {
-    const Reflectance mean = reflectance(reflectances_.mean({triangle_, lit.side == 0}, lit.part), kMeanView);
+    const Reflectance mean = meanReflectance(reflectances_.mean({triangle_, lit.side == 0}, lit.part));
     const float transmission = materialOf(scene_.geometry, triangle_).transmission;
     const Eigen::Array3f through = transmission * mean.diffuse.min(mean.all());
     const Eigen::Array3f sent = lit.looked / kPiFloat * lit.light;

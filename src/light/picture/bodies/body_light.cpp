@@ -56,7 +56,7 @@ class BodyLight::Implementation {
  private:
   void castFrom(std::uint32_t body, const Eigen::Vector3f& middle, Views* views) const;
   Eigen::Array3f reflectanceAt(const TriangleSide& side, const Eigen::Vector3f& barycentric) const {
-    return reflectance(reflectances_.at(side, barycentric), kMeanView).all();
+    return meanReflectance(reflectances_.at(side, barycentric)).all();
   }
   void keep(std::uint32_t body, std::uint32_t direction, const Hit& hit, Views* views) const;
   static Eigen::Array3f arriving(const Met& met, const Illumination& light);
