@@ -24,6 +24,10 @@ namespace {
 
 using nlohmann::json;
 
+/// Extensions by which textures have pictures; that of the first is read.
+constexpr const char* kOfPictures[] = {"EXT_texture_webp", "KHR_texture_basisu", "MSFT_texture_dds",
+                                       "EXT_texture_avif"};
+
 bool lacksMatrices(const json& skin) {
   return skin.is_object() && !skin.contains("inverseBindMatrices");
 }
@@ -109,10 +113,9 @@ bool usePictures(json& root) {
   bool any = false;
   if (!child(root, "textures").is_array()) return any;
   for (json& texture : root["textures"]) {
-    for (const char* const name :
-         {"EXT_texture_webp", "KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif"}) {
+    for (const char* const name : kOfPictures) {
       const json& picture = child(extension(texture, name), "source");
-      const bool wanted = std::string(name) == "EXT_texture_webp" || !texture.contains("source");
+      const bool wanted = name == kOfPictures[0] || !texture.contains("source");
       if (!picture.is_number_unsigned() || !wanted) continue;
       texture["source"] = picture.get<std::size_t>();
       any = true;
@@ -129,6 +132,10 @@ std::string withJson(const std::string& file, std::string text) {
 }
 
 }  // namespace
+
+bool isOfPictures(const std::string& extension) {
+  return std::find(std::begin(kOfPictures), std::end(kOfPictures), extension) != std::end(kOfPictures);
+}
 
 void requireGltf2(const json& root, const std::string& file) {
   if (!root.contains("asset"))

@@ -13,6 +13,9 @@ namespace sunlit::scene {
 /// Throws std::runtime_error that says what to do about a file of another version than 2.
 void requireGltf2(const nlohmann::json& root, const std::string& file);
 
+/// Whether it gives textures pictures of formats that glTF itself does not have.
+bool isOfPictures(const std::string& extension);
+
 /// Opens the files of a glTF file such that Assimp 5.2 may read them: those whose addresses are written with
 /// escapes (RFC 3986), and skins without matrices of their own, which it does not expect, with those that
 /// section 3.7.3.1 gives them, and joints with names of their own; views unpacked; attributes as floats; a

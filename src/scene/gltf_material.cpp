@@ -72,13 +72,16 @@ std::optional<GltfLook> GltfMaterials::look(std::size_t index, const Picture& pi
     std::vector<std::string> all_lost;
     GltfLook look = gltfLook(json_->root, materials.at(index), picture, &all_lost);
     for (const std::string& lost : all_lost)
-      builder_.warn(kNotRendered,
-                    (look.material.name.empty() ? "material " + std::to_string(index) : look.material.name) +
-                        " of " + file_ + ": " + lost);
+      builder_.warn(kNotRendered, nameOf(index) + " of " + file_ + ": " + lost);
     return look;
   } catch (const std::exception& error) {
     throw std::runtime_error(file_ + ": material " + std::to_string(index) + ": " + error.what());
   }
+}
+
+std::string GltfMaterials::nameOf(std::size_t index) const {
+  const json& name = child(child(json_->root, "materials").at(index), "name");
+  return name.is_string() && name != "" ? name.get<std::string>() : "material " + std::to_string(index);
 }
 
 std::unique_ptr<GltfInput> GltfMaterials::input() const {
@@ -101,8 +104,13 @@ void GltfMaterials::addLights(const Eigen::Affine3d& up_from_file) const {
 }
 
 void GltfMaterials::nameTheRest(std::uint64_t triangles) const {
-  for (const std::string& name : unknown("extensionsUsed"))
-    builder_.warn("glTF extensions are not read", name + " of " + file_);
+  std::set<std::string> of_materials;  // which are named with these, where they are used
+  for (const json& material : child(json_->root, "materials")) {
+    for (const auto& extension : child(material, "extensions").items()) of_materials.insert(extension.key());
+  }
+  for (const std::string& name : unknown("extensionsUsed")) {
+    if (of_materials.count(name) == 0) builder_.warn("glTF extensions are not read", name + " of " + file_);
+  }
   for (const std::string& lost : shapesNotRead(json_->root, file_))
     builder_.warn("nodes have a shape that is not read whole", lost);
   try {
@@ -128,14 +136,14 @@ std::string GltfMaterials::whatItNeeds() const {
 
 std::vector<std::string> GltfMaterials::unknown(const char* list) const {
   // Assimp reads the last one, or says that it was built without.
-  static const std::set<std::string> known = {"KHR_texture_transform",   "EXT_texture_webp",
-                                              "KHR_lights_punctual",     "KHR_mesh_quantization",
-                                              "EXT_mesh_gpu_instancing", kDraco};
+  static const std::set<std::string> known = {"KHR_texture_transform", "KHR_lights_punctual",
+                                              "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", kDraco};
   std::vector<std::string> unknown;
   const json& used = child(json_->root, list);
   for (const json& name : used.is_array() ? used : json::array()) {
     const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
-    const bool read = known.count(text) > 0 || (isPacking(text) && unpacks());
+    // Of pictures that are not read each is named.
+    const bool read = known.count(text) > 0 || isOfPictures(text) || (isPacking(text) && unpacks());
     if (!isKnownOfMaterials(text) && !read) unknown.push_back(text);
   }
   return unknown;

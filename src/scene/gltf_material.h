@@ -51,6 +51,9 @@ class GltfMaterials {
   /// cannot be shown is a warning.
   std::optional<GltfLook> look(std::size_t index, const Picture& picture) const;
 
+  /// That of a material of the file, or "material 3".
+  std::string nameOf(std::size_t index) const;
+
   /// What Assimp reads the file through.
   std::unique_ptr<GltfInput> input() const;
 

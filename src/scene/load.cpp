@@ -18,6 +18,17 @@
 namespace sunlit::scene {
 namespace {
 
+/// `warning` without the places where it says of what file it is: the one that is loaded.
+std::string withoutPath(std::string warning, const std::string& file) {
+  const std::string of_file = " of " + file;
+  for (std::size_t at = warning.find(of_file); at != std::string::npos; at = warning.find(of_file, at + 1)) {
+    const std::size_t end = at + of_file.size();
+    const bool whole = end == warning.size() || std::string(" :;,").find(warning[end]) != std::string::npos;
+    if (whole) warning.erase(at, of_file.size());
+  }
+  return warning;
+}
+
 bool isOneOf(const std::string& extension, std::initializer_list<const char*> known) {
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
@@ -29,6 +40,7 @@ Scene loadMeshFile(const std::string& file, const ResourceFinder& finder) {
     builder.addMesh(part.mesh, part.file_from_node);
   }
   Scene scene = builder.finish();
+  for (std::string& warning : scene.warnings) warning = withoutPath(std::move(warning), file);
   if (scene.meshes.empty()) {
     throw std::runtime_error(file + ": there is not a triangle in this file that could be drawn" +
                              reasonsOf(scene.warnings));
@@ -76,8 +88,10 @@ std::string worldIn(const std::string& folder) {
       worlds.push_back(entry.path().string());
   }
   if (worlds.size() == 1) return worlds[0];
-  throw std::runtime_error(folder + ": there are " + std::to_string(worlds.size()) +
-                           " worlds in this folder, of names that end in .world or .sdf: name one of them");
+  const std::string of_names = " in this folder, of names that end in .world or .sdf";
+  if (worlds.empty()) throw std::runtime_error(folder + ": there is no world" + of_names);
+  throw std::runtime_error(folder + ": there are " + std::to_string(worlds.size()) + " worlds" + of_names +
+                           ": name one of them");
 }
 
 /// Throws std::runtime_error where there is none.

@@ -65,7 +65,7 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
   }
   if (look->vanishes) {
     context.builder.warn("materials are invisible by their alpha, and left out",
-                         look->material.name + " of " + context.file);
+                         context.gltf->nameOf(context.gltf_order.at(index)) + " of " + context.file);
     return std::nullopt;
   }
   return MeshLook{context.builder.addMaterial(look->material, AlphaRule::kDeclared), look->coordinates, false,

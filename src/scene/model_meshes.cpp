@@ -9,7 +9,8 @@ const std::vector<MeshPart>* ModelMeshes::partsOf(const std::string& uri, const 
   const Found found = finder_.find(uri, from_file);
   if (!found.file) {
     if (finder_.missing() == Missing::kStop) {
-      throw std::runtime_error(place + ": there is no mesh " + uri + "; " + placesTried(found));
+      throw std::runtime_error(place + ": there is no mesh " + uri + "; " + placesTried(found) +
+                               kDrawTheRest);
     }
     builder_.warn("meshes are missing and were left out", uri + " of " + place);
     return nullptr;

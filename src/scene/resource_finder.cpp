@@ -18,6 +18,11 @@ namespace {
 
 constexpr const char* kPackageScheme = "package://";
 constexpr const char* kFileScheme = "file:/";  // and, mostly, another slash
+constexpr const char* kNotFetched =
+    "; nothing is fetched from the network, `gz fuel download -u ADDRESS` does that";
+
+/// As many a person reads of the places where something was looked for.
+constexpr std::size_t kNamedPlaces = 3;
 
 bool isThere(const fs::path& path, Wanted wanted) {
   std::error_code error;
@@ -146,6 +151,7 @@ Found ResourceFinder::findAsWritten(const std::string& uri, const std::string& f
   if (const std::optional<FuelAddress> fuel = fuelAddress(uri)) {
     const std::vector<std::string> places = fuelPlaces(*fuel, fuel_caches_);
     Found found = firstOf({places.begin(), places.end()});
+    found.of_fuel = true;
     if (found.file || stockModel(*fuel).empty()) return found;
     const Found own = findAsWritten("model://" + stockModel(*fuel), from_file, wanted);
     return own.file ? own : found;
@@ -231,13 +237,17 @@ std::string ResourceFinder::unknownPackage(const std::string& uri) const {
 std::string ResourceFinder::rootsOf(const std::string& uri) const {
   if (!fuelAddress(uri)) return roots() + noteOf(unknownPackage(uri));
   return "Fuel's cache" + (fuel_caches_.empty() ? ", which has no folder" : " in " + listed(fuel_caches_)) +
-         "; nothing is fetched from the network, `gz fuel download -u ADDRESS` does that";
+         kNotFetched;
 }
 
 std::string placesTried(const Found& found) {
-  const std::string places = found.tried.empty() ? "there is no folder to look for it in"
-                                                 : "it was looked for as " + listed(found.tried);
-  return places + noteOf(found.no_package);
+  std::vector<std::string> named = found.tried;
+  named.resize(std::min(named.size(), kNamedPlaces));
+  const bool all = named.size() == found.tried.size();
+  if (!all) named.back() += " … (" + std::to_string(found.tried.size()) + " in all)";
+  const std::string places =
+      named.empty() ? "there is no folder to look for it in" : "it was looked for as " + listed(named);
+  return places + noteOf(found.no_package) + (found.of_fuel ? kNotFetched : "");
 }
 
 std::vector<std::string> gazeboFolders(const std::string& share) {

@@ -16,6 +16,7 @@ struct Found {
   std::vector<std::string> tried;
   bool other_case = false;      ///< found only by ignoring upper and lower case
   std::string no_package = {};  ///< the package of the address, where ROS knows none of that name
+  bool of_fuel = false;         ///< the address is one of Fuel
 };
 
 /// What is looked for. A folder of that name may well be something else.
@@ -70,8 +71,12 @@ class ResourceFinder {
   Missing missing_;
 };
 
-/// "it was looked for as a, b and c", and which package ROS does not know.
+/// "it was looked for as a, b and c", the first few, which package ROS does not know, and that nothing of
+/// Fuel is fetched.
 std::string placesTried(const Found& found);
+
+/// Ends the error of a model or mesh that is not there: what draws a world without it.
+constexpr const char* kDrawTheRest = "; --missing warn (of a node, missing: warn) draws the rest";
 
 /// Where versions of Gazebo classic keep their models and media: the folders gazebo-VERSION in `share`,
 /// newest first.

@@ -160,7 +160,7 @@ const SdfFile& SdfFiles::read(const std::string& file) {
     }
     text << (named++ == 0 ? "" : ", ") << uri;
   }
-  text << "; looked for in " << finder_.rootsOf(missing_.begin()->first);
+  text << "; looked for in " << finder_.rootsOf(missing_.begin()->first) << kDrawTheRest;
   throw std::runtime_error(text.str());
 }
 

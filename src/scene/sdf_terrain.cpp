@@ -83,7 +83,7 @@ std::optional<Mesh> terrainOf(const SdfHeightmap& source, const TerrainUse& use,
     const Found found = finder.find(source.Uri(), source.FilePath());
     if (!found.file) {
       throw std::runtime_error(place + ": there is no height map " + source.Uri() + "; " +
-                               placesTried(found));
+                               placesTried(found) + (finder.missing() == Missing::kStop ? kDrawTheRest : ""));
     }
     const image::GreyPicture grey = image::readGreyWithin(kMostTerrainVertices, *found.file);
     const image::Picture<float, 1>& values = grey.values;

@@ -138,7 +138,7 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map
   }
   const Eigen::Affine3d map_from_visual = map_from_link * parentFrom(visual, name);
   if (!visual.CastShadows() && !isGround(visual, map_from_visual))
-    builder_.count("visuals cast shadows although their files say that they should not");
+    builder_.warn("visuals cast shadows although their files say that they should not", name);
   if (visual.Geom() != nullptr && visual.Geom()->Type() == sdf::GeometryType::MESH) {
     addMeshShape(visual, map_from_visual, name, opacity);
   } else if (std::optional<Mesh> shape = shapeOf(visual, name)) {

@@ -176,7 +176,7 @@ TEST_F(ColladaLooks, OfMaterialsThatSetParametersAreNamed) {
   };
   const std::vector<std::string> warnings = warningsOf("d");
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("<setparam>, which is not read: m of "), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("<setparam>, which is not read: m"), std::string::npos) << warnings[0];
   EXPECT_TRUE(warningsOf("of_another_profile").empty());
 }
 

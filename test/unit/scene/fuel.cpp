@@ -45,8 +45,16 @@ TEST_F(Fuel, WhatIsNotInTheCacheIsNamedWithThatNothingIsFetched) {
   const std::string world = including(address);
   EXPECT_EQ(errorOf(world, cached()),
             world + ":1: there is no " + address + "; looked for in Fuel's cache in " + pathOf("fuel") +
-                "; nothing is fetched from the network, `gz fuel download -u ADDRESS` does that");
+                "; nothing is fetched from the network, `gz fuel download -u ADDRESS` does that"
+                "; --missing warn (of a node, missing: warn) draws the rest");
   EXPECT_NE(errorOf(world).find("Fuel's cache, which has no folder; nothing is fetched"), std::string::npos);
+  const std::string mesh = worldOf("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>" +
+                                   address + "/files/m.obj</uri></mesh></geometry></visual></link></model>");
+  EXPECT_NE(errorOf(mesh, cached())
+                .find("m.obj; nothing is fetched from the network, `gz fuel download -u ADDRESS` does that; "
+                      "--missing warn"),
+            std::string::npos)
+      << errorOf(mesh, cached());
 }
 
 TEST_F(Fuel, TheGroundAndTheSunThatMostWorldsBeginWithNeedNoCache) {

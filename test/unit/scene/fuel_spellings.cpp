@@ -68,6 +68,8 @@ TEST_F(FuelSpellings, WorldsAreTheOneInTheirFolder) {
   std::filesystem::create_directories(pathOf(folder + "2"));
   const std::string address = kServer + "o/worlds/shapes";
   EXPECT_EQ(boundsOf(load(address, cached())).max().x(), 1.0f);
+  EXPECT_EQ(errorOf(pathOf(folder)),
+            pathOf(folder) + ": there is no world in this folder, of names that end in .world or .sdf");
   write(folder + "3/a.sdf", box);
   write(folder + "3/b.sdf", box);
   EXPECT_EQ(errorOf(address, cached()),

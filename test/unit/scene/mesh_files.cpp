@@ -129,8 +129,7 @@ TEST_F(MeshFile, ShiftedTexturesOfColladaAreNamed) {
     return load(write("t.dae", text), {});
   };
   EXPECT_TRUE(loaded("1").warnings.empty());
-  expectOneWarning(loaded("4"),
-                   "paint of " + pathOf("t.dae") + ": textures that are shifted, turned or repeated");
+  expectOneWarning(loaded("4"), "paint: textures that are shifted, turned or repeated");
 }
 
 TEST_F(MeshFile, ColladaShinesOnlyWhereItSaysSo) {
@@ -172,14 +171,13 @@ TEST_F(MeshFile, TexturesAreFoundInTheSearchPath) {
 TEST_F(MeshFile, ATextureInOtherCaseIsFoundWithAWarning) {
   writeTexture("PAINT.png");
   const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "paint.png")), {});
-  expectOneWarning(scene, "paint.png of " + pathOf("t.dae") + " is " + pathOf("PAINT.png"));
+  expectOneWarning(scene, "paint.png is " + pathOf("PAINT.png"));
   EXPECT_EQ(scene.textures.size(), 1u);
 }
 
 TEST_F(MeshFile, AMissingTextureIsANamedWarningAndANeutralMaterial) {
   const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "gone.png")), {});
-  expectOneWarning(
-      scene, "1 textures are missing, a neutral material takes their place: gone.png of " + pathOf("t.dae"));
+  expectOneWarning(scene, "1 textures are missing, a neutral material takes their place: gone.png");
   EXPECT_TRUE(scene.textures.empty());
   EXPECT_EQ(scene.materials[0].base_color.value[0], 0.18f);
 }
@@ -270,8 +268,8 @@ TEST_F(MeshFile, AHundredWarningsOfAKindAreOneLine) {
   write("m.mtl", materials);
   const std::string mesh = write("t.obj", faces);
   expectOneWarning(load(mesh, {}),
-                   "100 textures are missing, a neutral material takes their place: gone100.png of " + mesh +
-                       "; gone101.png of " + mesh + "; gone102.png of " + mesh + "; …");
+                   "100 textures are missing, a neutral material takes their place: gone100.png; "
+                   "gone101.png; gone102.png; …");
 }
 
 TEST_F(MeshFile, ObjIsTakenAsZUpAndGetsNormals) {
@@ -334,10 +332,10 @@ TEST_F(MeshFile, MapsOfMtlAreRenderedOrNamed) {
     const Scene scene = materialOf(word + std::string(" normal.png\n"));
     EXPECT_FALSE(
         scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).material)).normal_map.given());
-    expectOneWarning(scene, "m.obj: a bump map: without it");
+    expectOneWarning(scene, ": m: a bump map: without it");
   }
   // Beside a normal map, too.
-  expectOneWarning(materialOf("norm normal.png\nmap_Bump glow.png\n"), "m.obj: a bump map: without it");
+  expectOneWarning(materialOf("norm normal.png\nmap_Bump glow.png\n"), ": m: a bump map: without it");
 }
 
 TEST_F(MeshFile, MapsOfColladaAreRenderedOrNamed) {
@@ -447,8 +445,7 @@ TEST_F(MeshFile, APictureWithoutAFileIsAMissingTexture) {
   EXPECT_EQ(scene.triangleCount(), 1u);
   expectOneWarning(scene,
                    "1 textures are missing, a neutral material takes their place: image picture (which names "
-                   "no file) of " +
-                       pathOf("t.dae"));
+                   "no file)");
 }
 
 TEST_F(MeshFile, EmptyAnimationsEndWhereTheyBegin) {
@@ -469,7 +466,8 @@ TEST_F(MeshFile, AnEmptyFileIsSaidToBeEmpty) {
 TEST_F(MeshFile, AMissingFileNamesThePlaces) {
   const std::string error = errorOf("worlds/nowhere.dae", SearchPath{{"/some/folder"}});
   EXPECT_EQ(error.find("there is no world worlds/nowhere.dae; it was looked for as "), 0u) << error;
-  EXPECT_NE(error.find("/some/folder/worlds/nowhere.dae"), std::string::npos) << error;
+  EXPECT_NE(error.find("worlds/nowhere.dae … ("), std::string::npos) << error;
+  EXPECT_EQ(error.substr(error.size() - 8), " in all)") << error;
 }
 
 TEST_F(MeshFile, AnUnknownEndingIsAnError) {

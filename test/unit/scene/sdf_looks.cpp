@@ -279,7 +279,8 @@ TEST_F(SdfLook, WhollyTransparentVisualsAreLeftOut) {
 TEST_F(SdfLook, ShadowsThatSomebodyWouldSeeAreNamed) {
   const std::string none = "<cast_shadows>false</cast_shadows>";
   EXPECT_EQ(loaded("", none).warnings,
-            std::vector<std::string>{"1 visuals cast shadows although their files say that they should not"});
+            std::vector<std::string>{
+                "1 visuals cast shadows although their files say that they should not: m::l::v"});
   const auto plane = [](const std::string& normal) {
     return "<plane><normal>" + normal + "</normal><size>9 9</size></plane>";
   };
