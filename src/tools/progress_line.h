@@ -19,8 +19,8 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() { end(); }
 
-  /// `seconds_left`: NaN where nobody can tell yet.
-  void show(const std::string& work, double share, double seconds_left) {
+  /// `seconds_left`: NaN where nobody can tell yet. `about`: a line to stand above that of a work that lasts.
+  void show(const std::string& work, double share, double seconds_left, const std::string& about = "") {
     const int percent = static_cast<int>(100.0 * share);
     constexpr std::chrono::seconds kMoment(1);
     const Clock::time_point now = Clock::now();
@@ -28,6 +28,10 @@ class ProgressLine {
     const bool lasts = seconds_left >= 1.0 || now - begin_ >= kMoment;
     if (percent == percent_ || (!shown_ && !lasts)) return;
     percent_ = percent;
+    if (!shown_ && !about.empty()) {
+      leave();
+      std::fprintf(stderr, "%s\n", about.c_str());
+    }
     const std::string text = work + ": " + std::to_string(percent) + " %" + textOfTimeLeft(seconds_left);
     if (::isatty(STDERR_FILENO) == 1) {
       std::fprintf(stderr, "\r%s      ", text.c_str());

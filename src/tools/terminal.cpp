@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
 
 #include "tools/progress_line.h"
 
@@ -14,8 +15,12 @@ studio::Reports onTerminal() {
     ProgressLine::leave();
     std::fprintf(stderr, "warning: %s\n", text.c_str());
   };
-  reports.baking = [line](double share, double seconds_left) {
-    line->show("baking light", share, seconds_left);
+  const auto world = std::make_shared<std::string>();
+  reports.note = [world](const std::string& text) {
+    if (world->empty()) *world = text;
+  };
+  reports.baking = [line, world](double share, double seconds_left) {
+    line->show("baking light", share, seconds_left, *world);
   };
   return reports;
 }

@@ -83,5 +83,21 @@ TEST(ProgressLine, SaysNothingOfAWorkOfAMomentAfterOneThatLasted) {
   EXPECT_EQ(saidInAFile(works), "painting: 50 %, 5 s left\n");
 }
 
+// A model in centimetres is seen to be 383 m high before minutes are spent on it.
+TEST(ProgressLine, OfABakeThatLastsStandsBelowWhatIsSaidOfTheWorld) {
+  const auto works = [](double seconds_left) {
+    return saidInAFile([&] {
+      const studio::Reports reports = onTerminal();
+      reports.note("World shop.glb: 9 triangles, 90 × 60 × 383 m");
+      reports.note("Surfaces wet");
+      reports.baking(0.25, seconds_left);
+      reports.baking(0.5, seconds_left);
+    });
+  };
+  EXPECT_EQ(works(60.0),
+            "World shop.glb: 9 triangles, 90 × 60 × 383 m\nbaking light: 25 %, 1 min 00 s left\n");
+  EXPECT_EQ(works(0.1), "");
+}
+
 }  // namespace
 }  // namespace sunlit::tools
