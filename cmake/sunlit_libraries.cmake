@@ -61,3 +61,16 @@ if(TARGET meshoptimizer::meshoptimizer)
 else()
   message(STATUS "meshoptimizer was not found: sunlit will read no glTF with EXT_meshopt_compression")
 endif()
+
+# SUNLIT_DRACO, the target that unpacks glTF's KHR_draco_mesh_compression; empty where there is none, and then Assimp does, if
+# it can. Its CMake files name other targets in each version.
+set(SUNLIT_DRACO)
+find_library(DRACO_LIBRARY draco)
+find_path(DRACO_INCLUDE_DIR draco/compression/decode.h)
+if(DRACO_LIBRARY AND DRACO_INCLUDE_DIR)
+  set(SUNLIT_DRACO Draco::Draco)
+  add_library(Draco::Draco UNKNOWN IMPORTED)
+  set_target_properties(Draco::Draco PROPERTIES IMPORTED_LOCATION ${DRACO_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${DRACO_INCLUDE_DIR})
+else()
+  message(STATUS "Draco was not found: glTF with KHR_draco_mesh_compression is left to Assimp")
+endif()

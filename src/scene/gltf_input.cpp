@@ -11,6 +11,7 @@
 #include "scene/glb_file.h"
 #include "scene/gltf_addresses.h"
 #include "scene/gltf_buffers.h"
+#include "scene/gltf_draco.h"
 #include "scene/gltf_floats.h"
 #include "scene/gltf_instances.h"
 #include "scene/gltf_json.h"
@@ -155,6 +156,7 @@ GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(fi
   try {
     buffers.requireNoDevices();
     mended |= unpackViews(root, buffers);
+    mended |= unpackDraco(root, buffers);
     mended |= placeInstances(root, buffers);
     turned_of_instances_ = makeUnit(root);  // those of nodes of the file are by now
     mended |= giveZeros(root, buffers);

@@ -18,9 +18,9 @@ bool isOfPictures(const std::string& extension);
 
 /// Opens the files of a glTF file such that Assimp 5.2 may read them: those whose addresses are written with
 /// escapes (RFC 3986), and skins without matrices of their own, which it does not expect, with those that
-/// section 3.7.3.1 gives them, and joints with names of their own; views unpacked; attributes as floats; a
-/// node for each place of a mesh; textures of WebP, and those of extensions where there are no others; and
-/// without animations.
+/// section 3.7.3.1 gives them, and joints with names of their own; views and primitives unpacked; attributes
+/// as floats; a node for each place of a mesh; textures of WebP, and those of extensions where there are no
+/// others; and without animations.
 class GltfInput : public Assimp::DefaultIOSystem {
  public:
   /// `root` is that of `file`, or, `mended`, what is to be read in its place. Throws std::runtime_error that

@@ -18,6 +18,7 @@ KEYS = {"Eigen3": "eigen", "TBB": "tbb", "OpenCV": "libopencv-dev", "embree3": "
         "console_bridge": "libconsole-bridge-dev", "program_options": "libboost-program-options-dev",
         "xxhash": "libxxhash-dev", "xxhash.h": "libxxhash-dev", "nlohmann_json": "nlohmann-json-dev", "OSMesa": "libosmesa6-dev",
         "GL/osmesa.h": "libosmesa6-dev", "assimp/scene.h": "assimp", "meshoptimizer": "libmeshoptimizer-dev",
+        "draco": "libdraco-dev", "draco/compression/decode.h": "libdraco-dev",
         "urdf_model/model.h": "liburdfdom-dev", "urdf_parser/urdf_parser.h": "liburdfdom-dev", "EGL": "libegl-dev", "EGL/egl.h": "libegl-dev", "GL": "libgl-dev"}
 # What Python imports, likewise.
 KEYS_OF_MODULES = {"PIL": "python3-pil", "cv2": "python3-opencv", "jinja2": "python3-jinja2",
