@@ -185,21 +185,28 @@ class ExperimentRuns(unittest.TestCase):
         self.assertIn("done; an earlier run had evaluated all; results in ", again.said())
         self.assertEqual(self.bytes_of(output, "frames.csv"), self.bytes_of(self.output, "frames.csv"))
 
-    def test_a_sun_that_is_set_meanwhile_is_a_failure_that_the_same_run_again_mends(self):
-        output = os.path.join(self.folder, "set_meanwhile")
+    def set_meanwhile(self, output, service, kind, **request):
+        """What an experiment says that fails since this is set once some poses are rendered, and rows of problems.csv: all of h12
+        from then on are under another sun."""
         captures = os.path.join(output, "captures.csv")
         run = small_experiment(output, max_ahead=1)
         run.wait_for(lambda: os.path.exists(captures) and self.bytes_of(output, "captures.csv").count(b"\nh12,") > 2, "rendered poses")
         self.assertTrue(run.call("/render/pause", Trigger).success)
-        self.assertTrue(run.call("/h12/sun_position/set_date_time", SetDateTime, year=2024, month=7, day=1, hour=9, timezone=3).success)
+        self.assertTrue(run.call(service, kind, **request).success)
         self.assertTrue(run.call("/render/start", Trigger).success)
         self.assertNotEqual(run.end(), 0)
-        said = run.said()
         with open(os.path.join(output, "problems.csv")) as file:
             others = [row for row in csv.DictReader(file) if row["kind"] == "other_sun"]
         of_h12 = [int(row["pose"]) for row in others if row["where"] == "h12"]
         self.assertEqual(of_h12, list(range(of_h12[0], POSES)))
         self.assertGreater(of_h12[0], 1)
+        return run.said(), others
+
+    def test_a_sun_that_is_set_meanwhile_is_a_failure_that_the_same_run_again_mends(self):
+        output = os.path.join(self.folder, "set_meanwhile")
+        said, others = self.set_meanwhile(output, "/h12/sun_position/set_date_time", SetDateTime, year=2024, month=7, day=1, hour=9,
+                                          timezone=3)
+        of_h12 = [int(row["pose"]) for row in others if row["where"] == "h12"]
         reason = ("its sky is of 2024-07-01T06:00:00.000Z, not of 2024-07-01T09:00:00.000Z as by the first capture: was the sun set "
                   "meanwhile (set_date_time)? ")
         self.assertTrue(all(row["reason"].startswith(reason) for row in others), others)
@@ -215,22 +222,12 @@ class ExperimentRuns(unittest.TestCase):
 
     def test_so_is_a_site_that_is_set_meanwhile(self):
         output = os.path.join(self.folder, "moved_meanwhile")
-        captures = os.path.join(output, "captures.csv")
-        run = small_experiment(output, max_ahead=1)
-        run.wait_for(lambda: os.path.exists(captures) and self.bytes_of(output, "captures.csv").count(b"\nh12,") > 2, "rendered poses")
-        self.assertTrue(run.call("/render/pause", Trigger).success)
-        self.assertTrue(run.call("/h12/sun_position/set_site", SetSite, latitude=-20.0, longitude=49.0, elevation=90.0, pressure=1000.0,
-                                 temperature=20.0).success)
-        self.assertTrue(run.call("/render/start", Trigger).success)
-        self.assertNotEqual(run.end(), 0)
-        with open(os.path.join(output, "problems.csv")) as file:
-            others = [row for row in csv.DictReader(file) if row["kind"] == "other_sun" and row["where"] == "h12"]
-        of_h12 = [int(row["pose"]) for row in others]
-        self.assertEqual(of_h12, list(range(of_h12[0], POSES)))
-        self.assertGreater(of_h12[0], 1)
+        said, others = self.set_meanwhile(output, "/h12/sun_position/set_site", SetSite, latitude=-20.0, longitude=49.0, elevation=90.0,
+                                          pressure=1000.0, temperature=20.0)
+        others = [row for row in others if row["where"] == "h12"]
         self.assertTrue(all("from that of the captures before, farther than it turns meanwhile: was the site set (set_site)?"
                             in row["reason"] for row in others), others)
-        self.assertIn("%d other_sun (h10-h12)" % len(of_h12), run.said())
+        self.assertIn("%d other_sun (h10-h12)" % len(others), said)
         again = small_experiment(output)
         self.assertEqual(again.end(), 0, again.said())
         self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
