@@ -138,21 +138,23 @@ Cutouts::Triangle Cutouts::Mask::place(const std::array<Eigen::Vector2f, 3>& tex
   return triangle;
 }
 
-bool Cutouts::Query::there(float u, float v) const {
+float Cutouts::Query::alpha(float u, float v) const {
   const Place at = placeOf(u, v);
-  const float alpha = mask_.blended * mask_.interpolated(at.x0, at.y0, at.fx, at.fy) / 255.0f;
-  return alpha > hashed(u, v);
+  return mask_.blended * mask_.interpolated(at.x0, at.y0, at.fx, at.fy) / 255.0f;
 }
 
-bool Cutouts::Query::solid(float u, float v, float cosine) const {
-  if (!isGlass()) return solid(u, v);
-  return 1.0f - atCosine(mask_.through, std::min(cosine, 1.0f)) > hashed(u, v);
+float Cutouts::Query::share(float u, float v, float cosine) const {
+  return mask_.through.empty() ? alpha(u, v) : 1.0f - atCosine(mask_.through, std::min(cosine, 1.0f));
+}
+
+bool Cutouts::Query::isThere(float share, float u, float v) {
+  return share > hashed(u, v);
 }
 
 // Squares first, without a branch, so that one look-up need not wait for another.
 void Cutouts::Query::solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const {
   if (blends()) {
-    for (std::size_t i = 0; i < count; ++i) solid[i] = there(u[i], v[i]) ? 1 : 0;
+    for (std::size_t i = 0; i < count; ++i) solid[i] = isThere(alpha(u[i], v[i]), u[i], v[i]) ? 1 : 0;
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {

@@ -47,9 +47,11 @@ class Cutouts {
         : triangle_(cutouts.triangles_[masked_triangle]),
           mask_(cutouts.masks_[static_cast<std::size_t>(triangle_.mask)]) {}
     bool solid(float u, float v) const;
-    /// The same of light that meets it by this cosine to its normal, which glass asks for.
-    bool solid(float u, float v, float cosine) const;
-    bool isGlass() const { return !mask_.through.empty(); }
+    /// Of what blends: the share of light that stops there, which meets it by this cosine to its normal;
+    /// glass asks for that.
+    float share(float u, float v, float cosine) const;
+    /// Whether such a share means this point.
+    static bool isThere(float share, float u, float v);
     /// The same of `count` points: 1 or 0.
     void solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const;
 
@@ -57,8 +59,7 @@ class Cutouts {
     bool blends() const { return mask_.blended != Mask::kCutOut; }
 
    private:
-    /// Of what blends.
-    bool there(float u, float v) const;
+    float alpha(float u, float v) const;
     /// Between which texels a point lies, and how far from the first ones.
     struct Place {
       int x0, y0;
@@ -129,7 +130,7 @@ inline Cutouts::Query::Place Cutouts::Query::placeOf(float u, float v) const {
 }
 
 inline bool Cutouts::Query::solid(float u, float v) const {
-  if (blends()) return there(u, v);
+  if (blends()) return isThere(alpha(u, v), u, v);
   const Place at = placeOf(u, v);
   const unsigned square = mask_.square(at.x0, at.y0);
   if (square != Mask::kMixed) return square == Mask::kSolid;

@@ -63,7 +63,10 @@ Both lookUp(scene::Scene scene, const Eigen::Vector3f& origin) {
       to->add(r, patches.rays()[r].patch, weight, hits.triangle[i] == HitPacket::kNothing);
     };
   };
-  AdaptiveProbe(rays, traits, patches).look(receivers, into(&both.adaptive));
+  AdaptiveProbe(rays, traits, patches)
+      .look(receivers, [&](int i, std::size_t r, float weight, const HitLayers& hits) {
+        into (&both.adaptive)(i, r, weight, hits.ends);
+      });
   probe(rays, patches.rays(), receivers, into(&both.whole));
   return both;
 }

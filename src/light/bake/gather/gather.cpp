@@ -136,14 +136,14 @@ class Gatherer {
     }
     const auto& rays = patches_.rays();
     probe_.look({receivers.data(), static_cast<int>(count)},
-                [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
+                [&](int lane, std::size_t r, float weight, const HitLayers& hits) {
                   const auto i = static_cast<std::size_t>(lane);
                   const std::uint32_t sample = starts_[first + i], behind = servedToo(sample);
                   const bool two_sided = behind != LightMesh::kNone;
                   const bool turned = two_sided && receivers[i].normal.dot(rays[r].towards) < 0.0f;
                   if (two_sided) weight *= 2.0f;
-                  note(rays[r], {receivers[i].normal, rays[r].towards, weight, hits, lane},
-                       turned ? behind : sample, &looks[i][turned ? 1 : 0]);
+                  note(rays[r], {receivers[i].normal, weight, hits, lane}, turned ? behind : sample,
+                       &looks[i][turned ? 1 : 0]);
                 });
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t sample = starts_[first + i], behind = servedToo(sample);
@@ -152,23 +152,27 @@ class Gatherer {
     }
   }
 
-  void note(const SkyPatches::Ray& ray, const BurialTest::Cast& cast, std::uint32_t sample,
-            Look* look) const {
+  /// A ray that left a sample: the normal there, what it counts, and the lane of `hits` that tells what it
+  /// met.
+  struct Cast {
+    const Eigen::Vector3f& normal;
+    float weight;
+    const HitLayers& hits;
+    int lane;
+  };
+  void note(const SkyPatches::Ray& ray, const Cast& cast, std::uint32_t sample, Look* look) const {
+    std::uint32_t from = LightMesh::kNone;
+    cast.hits.visit(cast.lane, [&](const HitPacket& hits, float share) {
+      from = sampleAt(scene_, samples_, {hits, cast.lane, ray.towards});
+      noteMet(ray, {hits.triangle[cast.lane], from, cast.weight * share}, look);
+    });
     look->all += cast.weight;
-    look->burial.add(cast, geometry_, traits_);
-    if (cast.hits.triangle[cast.lane] == HitPacket::kNothing) {
-      look->row[static_cast<std::size_t>(ray.patch)] += cast.weight;
-      return;
-    }
-    const std::uint32_t from = sampleAt(scene_, samples_, {cast.hits, cast.lane, ray.towards});
-    if (from == LightMesh::kNone) {
-      look->inside += cast.weight;
-      return;
-    }
-    if (isLeaf(traits_[cast.hits.triangle[cast.lane]].kind)) look->leaves += cast.weight;
+    look->burial.add({cast.normal, ray.towards, cast.weight, cast.hits.ends, cast.lane}, geometry_, traits_);
+    // A veil buries nothing, and what passes light on is one a ray.
+    if (!cast.hits.veils.empty())
+      from = sampleAt(scene_, samples_, {cast.hits.byChance(), cast.lane, ray.towards});
+    if (from == LightMesh::kNone || ray.coarse == SkyPatches::Ray::kFineOnly) return;
     const bool up = ray.patch != SkyPatches::kBelow;
-    (up ? look->blocked_up : look->blocked_down) += cast.weight;
-    if (ray.coarse == SkyPatches::Ray::kFineOnly) return;
     if (up) {
       look->coarse_blocked_up +=
           SkyPatches::solidAngle(ray.patch) * samples_.receivers[sample].weight(ray.towards);
@@ -176,6 +180,24 @@ class Gatherer {
     const auto direction = static_cast<std::uint32_t>(up ? ray.coarse : ray.coarse - SkyPatches::kAbove);
     look->hits[look->hit_count++] = SampleAndByte::of(from, direction);
     look->up += up;
+  }
+
+  struct MetOnWay {
+    std::uint32_t triangle;  ///< as HitPacket::triangle
+    std::uint32_t from;      ///< sample
+    float weight;
+  };
+  void noteMet(const SkyPatches::Ray& ray, const MetOnWay& met, Look* look) const {
+    if (met.triangle == HitPacket::kNothing) {
+      look->row[static_cast<std::size_t>(ray.patch)] += met.weight;
+      return;
+    }
+    if (met.from == LightMesh::kNone) {
+      look->inside += met.weight;
+      return;
+    }
+    if (isLeaf(traits_[met.triangle].kind)) look->leaves += met.weight;
+    (ray.patch != SkyPatches::kBelow ? look->blocked_up : look->blocked_down) += met.weight;
   }
 
   void finish(std::uint32_t sample, Look* look, TransportData* data) {

@@ -189,8 +189,14 @@ class RoomBaker::Looking {
     Lanes cast = 0, open = 0;
     Lanes outdoors = 0;  ///< those that see the sky, or what sees much of it
     std::array<float, kPacket> weights;
-    std::array<std::uint32_t, kPacket> senders;  ///< where not open; LightMesh::kNone: inside a body
-    HitPacket hits;
+    std::array<std::uint32_t, kPacket> senders;  ///< where rays end; LightMesh::kNone: inside a body
+    HitLayers hits;
+  };
+  /// What one surface on the way of each ray sends.
+  struct Layer {
+    const HitPacket& hits;
+    std::array<std::uint32_t, kPacket> senders;
+    std::array<float, kPacket> weights;  ///< 0: nothing there
   };
   /// Who takes what was met, and for how many directions it stands.
   struct Takers {
@@ -207,11 +213,8 @@ class RoomBaker::Looking {
     group_.cast(baker_.scene_.rays, {turn, direction.towards, met->cast}, &met->hits);
     for (int lane = 0; lane < group_.count(); ++lane) {
       if (!ReceiverGroup::has(met->cast, lane)) continue;
-      if (met->hits.triangle[lane] == HitPacket::kNothing) {
-        met->open |= Lanes{1} << lane;
-        continue;
-      }
-      const std::uint32_t from = senderAt({met->hits, lane, direction.towards});
+      if (met->hits.ends.triangle[lane] == HitPacket::kNothing) met->open |= Lanes{1} << lane;
+      const std::uint32_t from = senderAt({met->hits.ends, lane, direction.towards});
       met->senders[static_cast<std::size_t>(lane)] = from;
       if (from != LightMesh::kNone && baker_.exchange_.seen[from].outdoors) met->outdoors |= Lanes{1} << lane;
     }
@@ -241,31 +244,49 @@ class RoomBaker::Looking {
   };
 
   void add(const Sphere::Direction& direction, const Met& met, const Takers& takers) {
+    Layer ends{met.hits.ends, met.senders, {}};
+    for (int lane = 0; lane < group_.count(); ++lane) {
+      const auto i = static_cast<std::size_t>(lane);
+      if (!ReceiverGroup::has(takers.lanes & met.cast, lane)) continue;
+      ends.weights[i] = takers.directions * met.weights[i];
+    }
+    for (const HitLayers::Veil& veil : met.hits.veils) {
+      Layer layer{veil.hits, {}, ends.weights};
+      for (std::size_t i = 0; i < kPacket; ++i) {
+        layer.senders[i] = senderAt({veil.hits, static_cast<int>(i), direction.towards});
+        layer.weights[i] *= veil.shares[i];
+      }
+      addLayer(direction, layer, takers.number);
+    }
+    for (std::size_t i = 0; i < kPacket; ++i) ends.weights[i] *= met.hits.shareOfEnd(static_cast<int>(i));
+    for (int lane = 0; lane < group_.count(); ++lane) {
+      const auto i = static_cast<std::size_t>(lane);
+      if (ReceiverGroup::has(met.open, lane))
+        views_[i].open[static_cast<std::size_t>(direction.patch)] += ends.weights[i];
+    }
+    addLayer(direction, ends, takers.number);
+  }
+
+  void addLayer(const Sphere::Direction& direction, const Layer& layer, std::uint32_t number) {
     InMirrors in_mirrors;
     for (int lane = 0; lane < group_.count(); ++lane) {
-      if (!ReceiverGroup::has(takers.lanes & met.cast, lane)) continue;
       const auto i = static_cast<std::size_t>(lane);
-      const float weight = takers.directions * met.weights[i];
-      if (ReceiverGroup::has(met.open, lane)) {
-        views_[i].open[static_cast<std::size_t>(direction.patch)] += weight;
-        continue;
-      }
-      const std::uint32_t from = met.senders[i];
-      if (from == LightMesh::kNone) continue;
-      views_[i].add({from, weight}, baker_.exchange_.scattered(from, direction.towards),
+      const std::uint32_t from = layer.senders[i];
+      if (from == LightMesh::kNone || !(layer.weights[i] > 0.0f)) continue;
+      views_[i].add({from, layer.weights[i]}, baker_.exchange_.scattered(from, direction.towards),
                     direction.patch != SkyPatches::kBelow);
       if (!baker_.exchange_.mirrors(from)) continue;
       in_mirrors.lanes |= Lanes{1} << lane;
-      in_mirrors.weights[i] = weight;
+      in_mirrors.weights[i] = layer.weights[i];
       in_mirrors.samples[i] = from;
     }
     if (in_mirrors.lanes == 0) return;
-    in_mirrors.hits = met.hits;
+    in_mirrors.hits = layer.hits;
     in_mirrors.towards.fill(direction.towards);
-    followMirrors(direction, takers.number, &in_mirrors);
+    followMirrors(direction, number, &in_mirrors);
   }
 
-  /// LightMesh::kNone: inside a body.
+  /// LightMesh::kNone: inside a body, or nothing.
   std::uint32_t senderAt(const LaneHit& hit) const {
     const std::uint32_t sample = sampleAt(baker_.scene_, baker_.samples_, hit);
     return sample == LightMesh::kNone ? sample : baker_.exchange_.usefulBeside(sample);

@@ -40,11 +40,12 @@ void AdaptiveProbe::castCoarse(const ReceiverGroup& receivers, AllCoarseHits* al
     CoarseHits& met = (*all)[p];
     const std::size_t ray = parts_[p].coarse;
     met.cast = receivers.weigh(rays_[ray].towards, weights.data());
-    met.open = met.leaf = 0;
+    met.open = met.leaf = met.dim = 0;
     if (met.cast == 0) continue;
     receivers.cast(scene_, {turn(p, ray), rays_[ray].towards, met.cast}, &met.hits);
     for (int i = 0; i < receivers.count(); ++i) {
-      const std::uint32_t hit = met.hits.triangle[i];
+      const std::uint32_t hit = met.hits.ends.triangle[i];
+      if (met.hits.shareOfEnd(i) < 0.5f) met.dim |= Lanes{1} << i;
       if (hit == HitPacket::kNothing) {
         met.open |= Lanes{1} << i;
       } else if (isLeaf(traits_[hit].kind)) {
@@ -68,7 +69,7 @@ AdaptiveProbe::Lanes AdaptiveProbe::mixed(const AllCoarseHits& all, std::size_t 
   Lanes lanes = here.leaf;
   for (const int other : parts_[part].beside) {
     const CoarseHits& there = all[static_cast<std::size_t>(other)];
-    lanes |= here.cast & there.cast & (here.open ^ there.open);
+    lanes |= here.cast & there.cast & ((here.open ^ there.open) | (here.dim ^ there.dim));
   }
   return lanes;
 }
@@ -76,7 +77,7 @@ AdaptiveProbe::Lanes AdaptiveProbe::mixed(const AllCoarseHits& all, std::size_t 
 void AdaptiveProbe::castOthers(const ReceiverGroup& receivers, std::size_t number, Lanes lanes,
                                const Visit& visit) const {
   const Part& part = parts_[number];
-  HitPacket hits;
+  HitLayers hits;
   Weights weights;
   for (std::size_t r = part.first; lanes != 0 && r < part.end; ++r) {
     if (r == part.coarse) continue;

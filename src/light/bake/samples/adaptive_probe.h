@@ -12,13 +12,14 @@ namespace sunlit::light {
 
 /// Most of the sky that a point sees is all open or all hidden, and there one ray of a patch tells as much as
 /// several. All rays of a patch are cast only where its coarse ray tells otherwise than that of a patch
-/// beside it, or meets a leaf, for gaps between leaves are finer than patches, and along the horizon.
+/// beside it, or meets a leaf, for gaps between leaves are finer than patches, and along the horizon. What is
+/// open behind veils is told apart from what is open by whether they keep most of its light back.
 class AdaptiveProbe {
  public:
   /// What a ray has met: the index of the receiver; that of the ray among SkyPatches::rays();
   /// Receiver::weight() times the solid angle that the ray stands for; and the hits, of which lane `receiver`
   /// is the receiver's.
-  using Visit = std::function<void(int receiver, std::size_t ray, float weight, const HitPacket& hits)>;
+  using Visit = std::function<void(int receiver, std::size_t ray, float weight, const HitLayers& hits)>;
 
   /// Keeps references.
   AdaptiveProbe(const BakeRays& scene, const std::vector<TriangleTraits>& traits, const SkyPatches& patches);
@@ -40,7 +41,8 @@ class AdaptiveProbe {
   /// What the coarse ray of a part met.
   struct CoarseHits {
     Lanes cast, open, leaf;
-    HitPacket hits;
+    Lanes dim;  ///< behind veils
+    HitLayers hits;
   };
   using AllCoarseHits = std::array<CoarseHits, SkyPatches::kCoarse>;
 

@@ -8,9 +8,16 @@ namespace sunlit::light {
 BakeRays::BakeRays(std::shared_ptr<const Geometry> geometry)
     : scene_(std::move(geometry)), covers_(covers(scene_)) {}
 
+void BakeRays::cast(const RayPacket& rays, HitLayers* layers) const {
+  scene_.cast(rays, &layers->ends);
+  if (!covers_.empty()) preferBacks(rays, &layers->ends);
+  scene_.addVeils(rays, layers);
+}
+
 void BakeRays::cast(const RayPacket& rays, HitPacket* hits) const {
-  scene_.cast(rays, hits);
-  if (!covers_.empty()) preferBacks(rays, hits);
+  HitLayers layers;
+  cast(rays, &layers);
+  *hits = layers.byChance();
 }
 
 void BakeRays::preferBacks(const RayPacket& rays, HitPacket* hits) const {

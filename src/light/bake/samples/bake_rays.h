@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "light/bake/samples/covered_faces.h"
-#include "light/bake/samples/ray_packet.h"
+#include "light/bake/samples/hit_layers.h"
 #include "light/bake/samples/ray_scene.h"
 #include "sunlit/light/geometry.h"
 
@@ -28,6 +28,8 @@ class BakeRays {
   /// Keeps `geometry` alive. Throws std::runtime_error if the ray library fails.
   explicit BakeRays(std::shared_ptr<const Geometry> geometry);
 
+  void cast(const RayPacket& rays, HitLayers* layers) const;
+  /// HitLayers::byChance().
   void cast(const RayPacket& rays, HitPacket* hits) const;
   /// Sets hidden[i] to 1 where something stands in the way of sights[i], else to 0.
   void hide(const std::vector<BakeSight>& sights, std::vector<std::uint8_t>* hidden) const;

@@ -101,7 +101,9 @@ class ReceiverGroup {
     const Eigen::Vector3f& towards;
     Lanes lanes;  ///< receivers that cast one
   };
-  void cast(const BakeRays& scene, const Shot& shot, HitPacket* hits) const {
+  /// `hits`: HitPacket or HitLayers.
+  template <typename Hits>
+  void cast(const BakeRays& scene, const Shot& shot, Hits* hits) const {
     const Eigen::Vector3f& towards = shot.towards;
     RayPacket packet;
     for (int i = 0; i < RayPacket::kSize; ++i) {

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "sunlit/light/visibility.h"
+
 namespace sunlit::light {
 
 /// Rays that leave together: alike in direction, or in place.
@@ -30,6 +32,12 @@ struct HitPacket {
   std::uint32_t triangle[RayPacket::kSize];        ///< index into Geometry::triangles, or kNothing
   float u[RayPacket::kSize], v[RayPacket::kSize];  ///< shares of the triangle's second and third corner
   float distance[RayPacket::kSize];                ///< in lengths of the direction
+
+  void set(int lane, const Hit& hit) {
+    triangle[lane] = hit.triangle;
+    u[lane] = hit.u, v[lane] = hit.v;
+    distance[lane] = hit.distance;
+  }
 };
 
 /// How far along their directions rays are looked at, in lengths of these.

@@ -4,11 +4,14 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "light/bake/samples/bake_veils.h"
+#include "light/bake/samples/embree_packet.h"
+#include "light/bake/samples/masked_group.h"
 #include "light/bake/samples/triangle_kinds.h"
 #include "light/geometry/cutout.h"
 #include "light/geometry/embree.h"
@@ -20,32 +23,11 @@ namespace {
 
 enum GeometryNumber : unsigned { kOpaque = 0, kMasked = 1, kLeaves = 2 };
 
-struct MaskedGroup {
-  const Cutouts* cutouts;
-  std::vector<std::uint32_t> masked;  ///< index into Cutouts::maskedTriangles(), by Embree's number
-};
-
-/// Of a ray to the normal of what it meets.
-float cosineOf(const RTCFilterFunctionNArguments& at, unsigned i) {
-  const Eigen::Vector3f normal(RTCHitN_Ng_x(at.hit, at.N, i), RTCHitN_Ng_y(at.hit, at.N, i),
-                               RTCHitN_Ng_z(at.hit, at.N, i));
-  const Eigen::Vector3f way(RTCRayN_dir_x(at.ray, at.N, i), RTCRayN_dir_y(at.ray, at.N, i),
-                            RTCRayN_dir_z(at.ray, at.N, i));
-  return std::abs(normal.normalized().dot(way.normalized()));
-}
-
 /// Lets a ray pass where the surface is cut out.
-void passCutoutsOfBake(const RTCFilterFunctionNArguments* arguments) {
-  const auto& group = *static_cast<const MaskedGroup*>(arguments->geometryUserPtr);
-  for (unsigned i = 0; i < arguments->N; ++i) {
-    if (arguments->valid[i] != -1) continue;
-    const float u = RTCHitN_u(arguments->hit, arguments->N, i);
-    const float v = RTCHitN_v(arguments->hit, arguments->N, i);
-    const std::uint32_t masked = group.masked[RTCHitN_primID(arguments->hit, arguments->N, i)];
-    const Cutouts::Query surface(*group.cutouts, masked);
-    const bool solid = surface.isGlass() ? surface.solid(u, v, cosineOf(*arguments, i)) : surface.solid(u, v);
-    if (!solid) arguments->valid[i] = 0;
-  }
+void passCutoutsOfBake(const RTCFilterFunctionNArguments* at) {
+  eachMasked(*at, [at](const Cutouts::Query& surface, unsigned i) {
+    if (!surface.solid(RTCHitN_u(at->hit, at->N, i), RTCHitN_v(at->hit, at->N, i))) at->valid[i] = 0;
+  });
 }
 
 /// A query for what is seen from one side.
@@ -70,26 +52,6 @@ void passOthers(const RTCFilterFunctionNArguments* arguments) {
     const bool wanted = query.facing == RayScene::Facing::kAway ? along > 0.0f : along < 0.0f;
     if (number == kLeaves || !wanted) arguments->valid[i] = 0;
   }
-}
-
-RTCRayHit16 packetOf(const RayPacket& rays, const RayReach& reach) {
-  RTCRayHit16 packet;
-  std::memcpy(packet.ray.org_x, rays.origin_x, sizeof(rays.origin_x));
-  std::memcpy(packet.ray.org_y, rays.origin_y, sizeof(rays.origin_y));
-  std::memcpy(packet.ray.org_z, rays.origin_z, sizeof(rays.origin_z));
-  std::memcpy(packet.ray.dir_x, rays.towards_x, sizeof(rays.towards_x));
-  std::memcpy(packet.ray.dir_y, rays.towards_y, sizeof(rays.towards_y));
-  std::memcpy(packet.ray.dir_z, rays.towards_z, sizeof(rays.towards_z));
-  std::memcpy(packet.ray.tnear, reach.from, sizeof(reach.from));
-  std::memcpy(packet.ray.tfar, reach.to, sizeof(reach.to));
-  for (int i = 0; i < RayPacket::kSize; ++i) {
-    packet.ray.time[i] = 0.0f;
-    packet.ray.mask[i] = ~0u;
-    packet.ray.id[i] = packet.ray.flags[i] = 0;
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  return packet;
 }
 
 /// Part of a leaf card, by its corners' barycentric (u, v) in the card's triangle.
@@ -159,15 +121,19 @@ struct RayScene::Embree {
   void sortTriangles() {
     triangles[kOpaque] = cutouts.opaqueTriangles();
     masked_group.cutouts = &cutouts;
+    MaskedGroup veil_group{&cutouts, {}};
     const std::vector<std::uint32_t>& masked = cutouts.maskedTriangles();
     for (std::uint32_t i = 0; i < masked.size(); ++i) {
       if (isLeaf(triangleKind(*geometry, masked[i]))) {
         leaves.push_back(i);
+      } else if (Cutouts::Query(cutouts, i).blends()) {
+        veil_group.masked.push_back(i);
       } else {
         triangles[kMasked].push_back(masked[i]);
         masked_group.masked.push_back(i);
       }
     }
+    if (!veil_group.masked.empty()) veils.emplace(*geometry, std::move(veil_group), device.get());
   }
 
   void attachWhole(GeometryNumber number) {
@@ -235,6 +201,7 @@ struct RayScene::Embree {
   std::vector<std::uint32_t> triangles[3];  ///< index into Geometry::triangles, by Embree's numbers
   DevicePointer device;
   ScenePointer scene;
+  std::optional<BakeVeils> veils;  ///< empty: none
 };
 
 RayScene::RayScene(std::shared_ptr<const Geometry> geometry)
@@ -252,9 +219,15 @@ void RayScene::cast(const RayPacket& rays, HitPacket* hits) const {
   embree_->read(packet, rays, hits);
 }
 
+void RayScene::addVeils(const RayPacket& rays, HitLayers* layers) const {
+  layers->veils.clear();
+  if (embree_->veils) embree_->veils->add(rays, layers);
+}
+
 void RayScene::hide(const RayPacket& rays, const RayReach& reach, std::uint8_t* hidden) const {
   alignas(64) RTCRay16 packet = packetOf(rays, reach).ray;
   occluded<kIncoherent>(rays.valid, embree_->scene.get(), &packet);
+  if (embree_->veils) embree_->veils->stop(rays.valid, &packet);
   // Of what is hidden, Embree sets the end to −∞.
   for (int i = 0; i < RayPacket::kSize; ++i) hidden[i] = packet.tfar[i] < 0.0f ? 1 : 0;
 }

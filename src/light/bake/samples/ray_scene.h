@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <memory>
 
-#include "light/bake/samples/ray_packet.h"
+#include "light/bake/samples/hit_layers.h"
 #include "sunlit/light/geometry.h"
 
 namespace sunlit::light {
 
 /// Surfaces stop light from both sides; masked ones let it through where they are cut out, leaves by smaller
-/// triangles of as much area.
+/// triangles of as much area. Glass and what blends are veils: they let a share through.
 class RayScene {
  public:
   enum class Facing {
@@ -26,10 +26,14 @@ class RayScene {
 
   const Geometry& geometry() const;
 
+  /// What rays meet first, veils apart.
   void cast(const RayPacket& rays, HitPacket* hits) const;
-  /// Sets hidden[i] to 1 where a ray meets anything within its reach, else to 0.
+  /// Adds the veils on the way to `layers->ends`, of which those that let next to nothing through are new
+  /// ends.
+  void addVeils(const RayPacket& rays, HitLayers* layers) const;
+  /// Sets hidden[i] to 1 where a ray meets anything within its reach, else to 0. Veils stop it by chance.
   void hide(const RayPacket& rays, const RayReach& reach, std::uint8_t* hidden) const;
-  /// Of what shows the ray one of its sides, and is no leaf.
+  /// Of what shows the ray one of its sides, and is neither leaf nor veil.
   void castAmong(Facing facing, const RayPacket& rays, const RayReach& reach, HitPacket* hits) const;
 
  private:

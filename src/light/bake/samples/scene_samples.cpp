@@ -373,6 +373,7 @@ std::uint32_t sampleOn(const SceneSamples& samples, std::uint32_t root, const Ei
 
 std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, const LaneHit& hit) {
   const std::uint32_t t = hit.hits.triangle[hit.lane];
+  if (t == HitPacket::kNothing) return LightMesh::kNone;
   const std::size_t side = scene.geometry.planes[t].normal.dot(hit.towards) > 0.0f ? 1 : 0;
   if (side == 1 && scene.traits[t].solid) return LightMesh::kNone;
   std::uint32_t root = samples.mesh.roots[t][side];

@@ -38,7 +38,8 @@ struct LaneHit {
   int lane;
   const Eigen::Vector3f& towards;
 };
-/// The sample nearest to where a ray has met a triangle, or LightMesh::kNone for the inside of a body.
+/// The sample nearest to where a ray has met a triangle, or LightMesh::kNone for the inside of a body and for
+/// nothing.
 std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, const LaneHit& hit);
 
 /// `progress` gets the share done, 0 … 1, about.

@@ -48,7 +48,7 @@ struct Side {
 bool matters(const Geometry& geometry, const Side& side, TriangleKind kind) {
   const auto number = static_cast<std::size_t>(geometry.materials[side.triangle]);
   const scene::Material& material = geometry.scene->materials[number];
-  const bool lets_through = isGlass(material) || material.transmission > 0.0f;
+  const bool lets_through = seenThrough(material) || material.transmission > 0.0f;
   return side.side == 0 || material.double_sided || (lets_through && !isLeaf(kind));
 }
 
@@ -139,10 +139,6 @@ void promoteWhatSticksThrough(const BakeRays& rays, const Geometry& geometry,
     if (through[i] != 0) (*traits)[small[i]].kind = TriangleKind::kLarge;
 }
 
-bool isClear(const Geometry& geometry, std::uint32_t t) {
-  return isGlass(geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])]);
-}
-
 }  // namespace
 
 TriangleKind triangleKind(const Geometry& geometry, std::uint32_t t) {
@@ -189,7 +185,8 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
         const Outlook& outlook = from_there[i - first];
         if (place == 0 && sides[i].side == 1) {
           TriangleTraits& to = traits[sides[i].triangle];
-          to.solid = outlook.inside() && !isClear(geometry, sides[i].triangle);
+          const auto material = static_cast<std::size_t>(geometry.materials[sides[i].triangle]);
+          to.solid = outlook.inside() && !seenThrough(geometry.scene->materials[material]);
         }
         sealed[i] = outlook.sealed() ? 1 : 0;
         useless[i] = outlook.sealed() || outlook.buried() ? 1 : 0;
