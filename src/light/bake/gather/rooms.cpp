@@ -172,7 +172,9 @@ class RoomBaker::Looking {
     for (std::size_t r = 0; r < all.size(); ++r) cast(r, sphere.coarse[r], ~Lanes{0}, &all[r]);
     Met met;
     for (std::size_t r = 0; r < all.size(); ++r) {
-      const Lanes edges = edgesAt(sphere, r, all);
+      // A gap that one looker's ray has found others look for, too: finely by those alone whose ray met it,
+      // it would count where it is met, by what it takes there, and where it is missed not at all.
+      const Lanes edges = edgesAt(sphere, r, all) != 0 ? ~Lanes{0} : 0;
       const std::uint32_t first = sphere.first_fine[r], end = sphere.first_fine[r + 1];
       add(sphere.coarse[r], all[r], {~edges, static_cast<float>(end - first), static_cast<std::uint32_t>(r)});
       for (std::uint32_t f = first; f < end && edges != 0; ++f) {
