@@ -40,7 +40,7 @@ struct Surface {
   std::int32_t material = 0;       ///< index into Scene::materials
   std::uint32_t pixel = 0;         ///< y · width + x
   std::uint32_t first_sample = 0;  ///< into Tile::origin_x …
-  /// How many of the pixel's samples see it, > 0; in mirrors, each of its sheets of glass counts.
+  /// How many of the pixel's samples see it, > 0; in mirrors, each of its sheets counts.
   std::uint32_t samples = 0;
   std::uint32_t triangle = 0;  ///< one that it lies on: index into Geometry::triangles, beyond them bodies
 };

@@ -74,7 +74,7 @@ class Visibility {
   std::uint32_t fixedTriangles() const;
 
   /// Sets hits[i] to what ray i meets first, from whichever side.
-  void closest(const Rays& rays, Hit* hits) const;
+  void closest(const Rays& rays, Hit* hits, Blends blends = Blends::kStopByChance) const;
 
   /// The triangle (index into Geometry::triangles) that a camera at `origin` sees first along `direction`, at
   /// least `near` times its length away; a one-sided triangle is invisible from behind, and what blends is

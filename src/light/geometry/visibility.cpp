@@ -121,7 +121,7 @@ class Visibility::Implementation {
   /// Shares the device of `other`.
   Implementation(std::shared_ptr<const Geometry> geometry, const Implementation& other);
   void occluded(const Rays& rays, float reach, Blends blends, std::uint8_t* blocked) const;
-  void closest(const Rays& rays, Hit* hits) const;
+  void closest(const Rays& rays, Blends blends, Hit* hits) const;
   Hit firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
   const VeilScene& veils() const { return *veils_; }
   std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(geometry_->triangles.size()); }
@@ -216,7 +216,7 @@ void Visibility::Implementation::occluded(const Rays& rays, float reach, Blends 
   for (std::size_t i = 0; i < rays.count; ++i) blocked[i] |= by_blends[i];
 }
 
-void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
+void Visibility::Implementation::closest(const Rays& rays, Blends blends, Hit* hits) const {
   SeeingContext context{{}, nullptr, {&cutouts_.opaqueTriangles(), &cutouts_.maskedTriangles()}};
   begin(&context.embree);
   for (std::size_t i = 0; i < rays.count; ++i) {
@@ -234,12 +234,13 @@ void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
     hits[i] = Hit();
     RTCRayHit blend = query;  // up to what was met
     blend.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    if (blend_scene_) intersect(blend_scene_.get(), &context.embree, &blend);
-    const bool blends = blend.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-    if (blends) query = blend;
+    if (blend_scene_ && blends == Blends::kStopByChance)
+      intersect(blend_scene_.get(), &context.embree, &blend);
+    const bool stopped = blend.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    if (stopped) query = blend;
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     hits[i].triangle =
-        (blends ? blends_->maskedTriangles() : *context.triangles[query.hit.geomID])[query.hit.primID];
+        (stopped ? blends_->maskedTriangles() : *context.triangles[query.hit.geomID])[query.hit.primID];
     hits[i].u = query.hit.u;
     hits[i].v = query.hit.v;
     hits[i].distance = query.ray.tfar;
@@ -324,11 +325,11 @@ std::uint32_t Visibility::fixedTriangles() const {
   return (fixed_ ? *fixed_ : *this).implementation_->triangleCount();
 }
 
-void Visibility::closest(const Rays& rays, Hit* hits) const {
-  implementation_->closest(rays, hits);
+void Visibility::closest(const Rays& rays, Hit* hits, Blends blends) const {
+  implementation_->closest(rays, blends, hits);
   if (!fixed_) return;
   const std::vector<Hit> moving(hits, hits + rays.count);
-  fixed_->closest(rays, hits);
+  fixed_->closest(rays, hits, blends);
   for (std::size_t i = 0; i < rays.count; ++i)
     hits[i] = nearer(hits[i], moving[i], fixed_->implementation_->triangleCount());
 }

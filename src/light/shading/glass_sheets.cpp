@@ -25,6 +25,17 @@ void GlassSheets::sheets(const Visibility::Sight& sight, std::vector<Hit>* hits)
               hits->end());
 }
 
+void GlassSheets::layers(const Visibility::Sight& sight, std::vector<Hit>* hits) const {
+  hits->clear();
+  if (!anyVeils()) return;
+  visibility_.veils(sight, hits);
+  hits->erase(std::remove_if(hits->begin(), hits->end(),
+                             [this](const Hit& hit) {
+                               return !isGlass(vertices_.material(hit)) && !visibility_.blendsEvenly(hit);
+                             }),
+              hits->end());
+}
+
 Eigen::Array3f GlassSheets::through(const Visibility::Sight& sight) const {
   Eigen::Array3f product = Eigen::Array3f::Ones();
   thread_local std::vector<Hit> hits;

@@ -28,7 +28,10 @@ class GlassSheets {
   Eigen::Array3f throughVeils(const Visibility::Sight& sight) const;
   /// The sheets on its way, nearest first.
   void sheets(const Visibility::Sight& sight, std::vector<Hit>* hits) const;
-  /// One of them, met along `direction`.
+  /// What an eye looks through along `sight`, nearest first: the sheets, and what blends evenly; one-sided
+  /// ones from before them alone.
+  void layers(const Visibility::Sight& sight, std::vector<Hit>* hits) const;
+  /// One of either, met along `direction`.
   Vertex at(const Hit& hit, const Eigen::Vector3f& direction) const { return vertices_.at(hit, direction); }
 
  private:

@@ -1,6 +1,7 @@
 // Panes and mirrors whose light can be worked out on paper, and a room with both beside path-traced light.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -34,6 +35,14 @@ int addGlass(scene::Scene* scene, const Eigen::Array3f& tint = Eigen::Array3f::O
   const int number = addMaterial(scene, tint);
   scene->materials.back().roughness = scene::Material::kSmoothest;
   scene->materials.back().glass = 1.0f;
+  return number;
+}
+
+/// Of metal, that mirrors 0.9 of what comes straight.
+int addMirror(scene::Scene* scene) {
+  const int number = addMaterial(scene, {0.9f, 0.9f, 0.9f});
+  scene->materials.back().metalness = 1.0f;
+  scene->materials.back().roughness = scene::Material::kSmoothest;
   return number;
 }
 
@@ -363,12 +372,33 @@ TEST(RoughMirrors, ShowWidePanelsAsTheyDoTheirLobe) {
   EXPECT_NEAR(off.bias, 0.0, 0.03);
 }
 
+// Of its lobe a hundredth looks past the black floor at the sky. Just above the floor, pixels that show what
+// their own two rays met would be bright dots, each about half of the sky.
+TEST(RoughMirrors, HaveNoBrightDotsWhereTheyStandOnAFloor) {
+  scene::Scene scene;
+  addPatch(&scene, addGlow(&scene, 0.0f), {-90.0f, -90.0f, 0.0f}, {180.0f, 0.0f, 0.0f}, {0.0f, 180.0f, 0.0f});
+  const int metal = addMirror(&scene);
+  scene.materials.back().roughness = 0.2f;
+  addPatch(&scene, metal, {6.0f, -2.0f, 0.0f}, {0.0f, 0.0f, 2.0f}, {0.0f, 4.0f, 0.0f});
+  const render::RenderOptions options = smallCamera(320, 240, 60.0);
+  render::Renderer renderer(shared(scene), options);
+  const Eigen::Isometry3d pose = lookingAt({1.5, 0.0, 4.5}, {6.0, 0.0, 0.0});
+  renderer.look(pose);
+  const image::LinearImage picture =
+      renderer.light(sky::uniformDaylight({LinearRgb(1000.0f, 1000.0f, 1000.0f), 0.0, {}}));
+  const Eigen::Vector2i left = pixelOf(pose, options.camera, {6.0, 1.5, 0.0});
+  const Eigen::Vector2i right = pixelOf(pose, options.camera, {6.0, -1.5, 0.0});
+  float brightest = 0.0f;
+  for (int y = left.y() - 4; y < left.y(); ++y)
+    for (int x = left.x(); x <= right.x(); ++x) brightest = std::max(brightest, at(picture, x, y)[1]);
+  EXPECT_GT(brightest, 1.0f);
+  EXPECT_LT(brightest, 100.0f);  // 62; alone 150
+}
+
 TEST(Mirrors, ShowWhatMirrorsMirror) {
   // A periscope: the x axis goes up from the first mirror, and on along x from the second, 5 m above.
   scene::Scene scene = glowingWall();
-  const int metal = addMaterial(&scene, {0.9f, 0.9f, 0.9f});
-  scene.materials.back().metalness = 1.0f;
-  scene.materials.back().roughness = scene::Material::kSmoothest;
+  const int metal = addMirror(&scene);
   addPane(&scene, metal, 0.0f, 135.0);
   const Eigen::Vector3f along(2.8f, 0.0f, 2.8f), across(0.0f, 4.0f, 0.0f);
   addPatch(&scene, metal, Eigen::Vector3f(0.0f, 0.0f, 5.0f) - 0.5f * (along + across), along, across);
@@ -379,9 +409,7 @@ TEST(Mirrors, ShowWhatPanesMirror) {
   // The mirror sends the x axis up, through a pane that lies level, into the dark; the pane mirrors it down
   // again beside the mirror, to what glows below.
   scene::Scene scene;
-  const int metal = addMaterial(&scene, {0.9f, 0.9f, 0.9f});
-  scene.materials.back().metalness = 1.0f;
-  scene.materials.back().roughness = scene::Material::kSmoothest;
+  const int metal = addMirror(&scene);
   addPane(&scene, metal, 0.0f, 150.0);  // the ray goes up at 60°
   addPatch(&scene, addGlass(&scene), {-30.0f, -30.0f, 10.0f}, {60.0f, 0.0f, 0.0f}, {0.0f, 60.0f, 0.0f});
   addPatch(&scene, addGlow(&scene, kWall), {-30.0f, -30.0f, -10.0f}, {60.0f, 0.0f, 0.0f},
@@ -389,6 +417,54 @@ TEST(Mirrors, ShowWhatPanesMirror) {
   const float cosine = std::sqrt(0.75f);  // of the ray to the pane's normal
   const float expected = 0.9f * kWall * 2.0f * face(cosine) / (1.0f + face(cosine));
   EXPECT_NEAR(seenAhead(scene)[1], expected, 0.03f * expected);  // the lobe's tables: 2 %
+}
+
+/// Blends by kAlpha, and glows.
+constexpr float kAlpha = 0.2f, kHaze = 300.0f;
+int addHaze(scene::Scene* scene) {
+  const int number = addGlow(scene, kHaze);
+  scene->materials.back().alpha_mode = scene::AlphaMode::kBlend;
+  scene->materials.back().alpha = kAlpha;
+  return number;
+}
+
+/// Expects each pixel to show `expected`, where the x axis goes up from a mirror, past what `scene` has
+/// there, to what glows 20 m above.
+void expectAbove(scene::Scene scene, float expected) {
+  addPane(&scene, addMirror(&scene), 0.0f, 135.0);
+  addPatch(&scene, addGlow(&scene, kWall), {-30.0f, -30.0f, 20.0f}, {60.0f, 0.0f, 0.0f}, {0.0f, 60.0f, 0.0f});
+  render::Renderer renderer(shared(std::move(scene)), smallCamera(33, 33, 5.0));
+  renderer.look(lookingAt({-5.0, 0.0, 0.0}, {0.0, 0.0, 0.0}));
+  const image::LinearImage picture = renderer.light(night());
+  for (int y = 0; y < 33; ++y)
+    for (int x = 0; x < 33; ++x)
+      ASSERT_NEAR(at(picture, x, y)[1], expected, 0.02f * expected) << x << ' ' << y;
+}
+
+// Rays that it stops by chance make grain of it.
+TEST(Mirrors, LookThroughWhatBlendsAsEyesDo) {
+  const float once = kAlpha * kHaze + (1.0f - kAlpha) * kWall;
+  const float twice = kAlpha * kHaze + (1.0f - kAlpha) * once;
+  for (const bool double_sided : {true, false}) {
+    scene::Scene scene;
+    const int haze = addHaze(&scene);
+    scene.materials.back().double_sided = double_sided;
+    addBlock(&scene, haze, {-30.0f, -30.0f, 10.0f}, {60.0f, 60.0f, 2.0f});
+    expectAbove(scene, 0.9f * (double_sided ? twice : once));
+  }
+}
+
+TEST(Mirrors, LookThroughPanesBeforeWhatBlends) {
+  scene::Scene scene;
+  addPatch(&scene, addHaze(&scene), {-30.0f, -30.0f, 10.0f}, {60.0f, 0.0f, 0.0f}, {0.0f, 60.0f, 0.0f});
+  addPatch(&scene, addGlass(&scene), {-30.0f, -30.0f, 8.0f}, {60.0f, 0.0f, 0.0f}, {0.0f, 60.0f, 0.0f});
+  expectAbove(scene, 0.9f * through(1.0f) * (kAlpha * kHaze + (1.0f - kAlpha) * kWall));
+}
+
+TEST(Mirrors, HideWhatBlendsWhereItLiesOnASurface) {
+  scene::Scene scene;
+  addPatch(&scene, addHaze(&scene), {-30.0f, -30.0f, 20.0f}, {60.0f, 0.0f, 0.0f}, {0.0f, 60.0f, 0.0f});
+  expectAbove(scene, 0.9f * kWall);
 }
 
 /// A room of 5 × 4 × 3 m with a polished floor, whose south side is a pane.

@@ -77,7 +77,7 @@ class TileMirror {
     }
     if (all->empty()) return;
     hits.resize(cast.rays.size());
-    visibility_.closest(cast.rays.rays(), hits.data());
+    visibility_.closest(cast.rays.rays(), hits.data(), Visibility::Blends::kLetPass);
     std::optional<ShiningInLobes> shining;
     if (shining_.any())
       shining.emplace(shining_, ShiningInLobes::Scene{visibility_, vertices_, glass_, pixels_.width}, tile,
@@ -168,15 +168,15 @@ class TileMirror {
       const float part = looked.cast.weights[i] / mirroring->weight;
       if (!(part > 0.0f)) continue;
       const Hit& hit = looked.hits[i];
-      const bool misses = hit.triangle == Hit::kMiss;
-      if (!misses) mirroring->nearest_m = std::min(mirroring->nearest_m, hit.distance);
-      const Eigen::Array3f through = passGlass(looked, i, part, &met);
-      if (misses)
+      const Eigen::Array3f through = passLayers(looked, i, part, &met);
+      if (hit.triangle == Hit::kMiss)
         open->push_back({looked.towards(i), through});
       else
         met.push_back({hit, vertexOf(looked, i), through});
     }
     for (std::size_t i = 0; i < met.size(); ++i) {
+      if (!isGlass(*met[i].vertex.material))
+        mirroring->nearest_m = std::min(mirroring->nearest_m, met[i].hit.distance);
       if (!met[i].taken) add(looked.surface, i, &met, seen);
     }
     if (!fillsLobe(looked.surface)) joinFrom(mirroring->first_open, open);
@@ -206,18 +206,26 @@ class TileMirror {
     open->push_back(joined);
   }
 
-  /// Adds the sheets of glass on the way of ray `i`, which mirror as well, and returns what they let through.
-  Eigen::Array3f passGlass(const Looked& looked, std::size_t i, float part, std::vector<Met>* met) const {
+  /// Adds what ray `i` is seen through, as by a camera, and returns what is left of it behind that: sheets of
+  /// glass, which mirror as well, and what blends evenly, each of which takes its alpha of what is left.
+  Eigen::Array3f passLayers(const Looked& looked, std::size_t i, float part, std::vector<Met>* met) const {
     Eigen::Array3f through = Eigen::Array3f::Constant(part);
-    if (!glass_.any()) return through;
-    thread_local std::vector<Hit> sheets;
+    if (!glass_.anyVeils()) return through;
+    thread_local std::vector<Hit> layers;
     const Hit& end = looked.hits[i];
+    const Eigen::Vector3f towards = looked.towards(i);
     const float reach = end.triangle == Hit::kMiss ? std::numeric_limits<float>::infinity() : end.distance;
-    glass_.sheets({looked.origin(i), looked.towards(i), 0.0f, reach}, &sheets);
-    for (const Hit& sheet : sheets) {
-      const Vertex vertex = glass_.at(sheet, looked.towards(i));
-      met->push_back({sheet, vertex, through});
-      through *= straightThrough(vertex.reflection);
+    glass_.layers({looked.origin(i), towards, 0.0f, reach}, &layers);
+    for (const Hit& layer : layers) {
+      const Vertex vertex = glass_.at(layer, towards);
+      // What lies on a surface is hidden, as from that surface's own rays.
+      const float above_m = (reach - layer.distance) * std::abs(vertex.geometric_normal.dot(towards));
+      if (end.triangle != Hit::kMiss && above_m < rayClearance_m(vertex.front, reach)) continue;
+      const bool glass = isGlass(*vertex.material);
+      const float alpha = glass ? 1.0f : vertex.material->alpha;
+      met->push_back({layer, vertex, alpha * through});
+      through *=
+          glass ? straightThrough(vertex.reflection) : Eigen::Array3f(Eigen::Array3f::Constant(1.0f - alpha));
     }
     return through;
   }

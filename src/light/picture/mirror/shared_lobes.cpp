@@ -132,12 +132,16 @@ bool isNear(const Rough& a, const Rough& b) {
 
 /// Of what rays met, others may be so far from where they started.
 constexpr float kNear = 1.0f;
+/// But those of its own block always may, px: where a mirror stands on something, a pixel's own few rays
+/// would be all that it shows, and one of them that gets away to the sky a bright dot.
+constexpr float kLeastNear = 0.7072f * static_cast<float>(kLobePixels);
 
 /// Sets reach_m, which is what each one's own rays met at the nearest, to what they may share by what those
 /// of its block have met.
 template <typename PixelAt>
 void findReaches(const Surfaces& surfaces, const PixelAt& pixelAt, RoughOnes* ones) {
   std::vector<float> reaches(ones->all.size());
+  const float least_rad = kLeastNear * lobePixels(surfaces).rad;
   constexpr std::size_t kGrain = 1024;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, reaches.size(), kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -151,7 +155,7 @@ void findReaches(const Surfaces& surfaces, const PixelAt& pixelAt, RoughOnes* on
             if (alike(one, ones->all[k])) nearest = std::min(nearest, ones->all[k].reach_m);
         }
       }
-      reaches[i] = kNear * nearest;
+      reaches[i] = std::max(kNear * nearest, least_rad * (one.position - surfaces.eye).norm());
     }
   });
   for (std::size_t i = 0; i < reaches.size(); ++i) ones->all[i].reach_m = reaches[i];
