@@ -53,11 +53,11 @@ float mean(const std::vector<float>& through) {
 }
 
 /// Evenly spread over 0 … 1, and alike for no neighbours.
-float hashed(float u, float v) {
+float hashed(std::uint32_t triangle, float u, float v) {
   std::uint32_t a, b;
   std::memcpy(&a, &u, sizeof(a));
   std::memcpy(&b, &v, sizeof(b));
-  std::uint32_t h = a * 0x9e3779b1u ^ (b + 0x85ebca6bu) * 0xc2b2ae35u;
+  std::uint32_t h = a * 0x9e3779b1u ^ (b + 0x85ebca6bu) * 0xc2b2ae35u ^ triangle * 0x27d4eb2fu;
   h = (h ^ (h >> 16)) * 0x7feb352du;
   h = (h ^ (h >> 15)) * 0x846ca68bu;
   h ^= h >> 16;
@@ -147,8 +147,8 @@ float Cutouts::Query::share(float u, float v, float cosine) const {
   return mask_.through.empty() ? alpha(u, v) : 1.0f - atCosine(mask_.through, std::min(cosine, 1.0f));
 }
 
-bool Cutouts::Query::isThere(float share, float u, float v) {
-  return share > hashed(u, v);
+bool Cutouts::Query::isThere(float share, float u, float v) const {
+  return share > hashed(number_, u, v);
 }
 
 // Squares first, without a branch, so that one look-up need not wait for another.

@@ -26,8 +26,8 @@ class Cutouts {
  public:
   /// What becomes of glass and of what blends.
   enum class Veils {
-    kByChance,  ///< masked; glass stops so many rays as it keeps light back, by their angle where that is
-                ///< told, else on average over a half sphere
+    kByChance,  ///< masked; glass stops so many rays as it keeps light back, on average over a half sphere:
+                ///< by their angle see Query::share()
     kLeftOut,   ///< glass and what blends evenly are in neither list
     kEvenOnly,  ///< what blends evenly is masked, and nothing else is in either list
   };
@@ -45,13 +45,15 @@ class Cutouts {
    public:
     Query(const Cutouts& cutouts, std::uint32_t masked_triangle)
         : triangle_(cutouts.triangles_[masked_triangle]),
-          mask_(cutouts.masks_[static_cast<std::size_t>(triangle_.mask)]) {}
+          mask_(cutouts.masks_[static_cast<std::size_t>(triangle_.mask)]),
+          number_(masked_triangle) {}
     bool solid(float u, float v) const;
     /// Of what blends: the share of light that stops there, which meets it by this cosine to its normal;
     /// glass asks for that.
     float share(float u, float v, float cosine) const;
-    /// Whether such a share means this point.
-    static bool isThere(float share, float u, float v);
+    /// Whether such a share means this point: up to a hash of it and of the triangle, for of sheets that
+    /// cover one another each stops rays by itself.
+    bool isThere(float share, float u, float v) const;
     /// The same of `count` points: 1 or 0.
     void solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const;
 
@@ -69,6 +71,7 @@ class Cutouts {
 
     const Triangle& triangle_;
     const Mask& mask_;
+    std::uint32_t number_;
   };
 
  private:

@@ -59,14 +59,11 @@ Both lookUp(scene::Scene scene, const Eigen::Vector3f& origin) {
   const ReceiverGroup receivers(&receiver, 1);
   Both both;
   const auto into = [&](Outcome* to) {
-    return [&patches, to](int i, std::size_t r, float weight, const HitPacket& hits) {
-      to->add(r, patches.rays()[r].patch, weight, hits.triangle[i] == HitPacket::kNothing);
+    return [&patches, to](int i, std::size_t r, float weight, const HitLayers& hits) {
+      to->add(r, patches.rays()[r].patch, weight, hits.ends.triangle[i] == HitPacket::kNothing);
     };
   };
-  AdaptiveProbe(rays, traits, patches)
-      .look(receivers, [&](int i, std::size_t r, float weight, const HitLayers& hits) {
-        into (&both.adaptive)(i, r, weight, hits.ends);
-      });
+  AdaptiveProbe(rays, traits, patches).look(receivers, into(&both.adaptive));
   probe(rays, patches.rays(), receivers, into(&both.whole));
   return both;
 }

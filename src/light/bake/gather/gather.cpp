@@ -152,8 +152,7 @@ class Gatherer {
     }
   }
 
-  /// A ray that left a sample: the normal there, what it counts, and the lane of `hits` that tells what it
-  /// met.
+  /// As BurialTest::Cast, with all that the ray met.
   struct Cast {
     const Eigen::Vector3f& normal;
     float weight;

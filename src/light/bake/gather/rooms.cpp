@@ -169,17 +169,17 @@ class RoomBaker::Looking {
   std::vector<View> around(const Sphere& sphere) {
     std::vector<Met> all(sphere.coarse.size());
     const auto count = static_cast<std::uint32_t>(all.size());
-    for (std::size_t r = 0; r < all.size(); ++r) cast(r, sphere.coarse[r], ~Lanes{0}, &all[r]);
+    for (std::size_t r = 0; r < all.size(); ++r) cast(r, sphere.coarse[r], &all[r]);
     Met met;
     for (std::size_t r = 0; r < all.size(); ++r) {
-      // A gap that one looker's ray has found others look for, too: finely by those alone whose ray met it,
-      // it would count where it is met, by what it takes there, and where it is missed not at all.
-      const Lanes edges = edgesAt(sphere, r, all) != 0 ? ~Lanes{0} : 0;
       const std::uint32_t first = sphere.first_fine[r], end = sphere.first_fine[r + 1];
-      add(sphere.coarse[r], all[r], {~edges, static_cast<float>(end - first), static_cast<std::uint32_t>(r)});
-      for (std::uint32_t f = first; f < end && edges != 0; ++f) {
-        cast(r + f, sphere.fine[f], edges, &met);
-        add(sphere.fine[f], met, {edges, 1.0f, count + f});
+      if (!isEdge(sphere, r, all)) {
+        add(sphere.coarse[r], all[r], {static_cast<float>(end - first), static_cast<std::uint32_t>(r)});
+        continue;
+      }
+      for (std::uint32_t f = first; f < end; ++f) {
+        cast(r + f, sphere.fine[f], &met);
+        add(sphere.fine[f], met, {1.0f, count + f});
       }
     }
     return std::move(views_);
@@ -190,6 +190,7 @@ class RoomBaker::Looking {
   struct Met {
     Lanes cast = 0, open = 0;
     Lanes outdoors = 0;  ///< those that see the sky, or what sees much of it
+    Lanes dim = 0;       ///< behind veils that keep most of the light back
     std::array<float, kPacket> weights;
     std::array<std::uint32_t, kPacket> senders;  ///< where rays end; LightMesh::kNone: inside a body
     HitLayers hits;
@@ -200,41 +201,44 @@ class RoomBaker::Looking {
     std::array<std::uint32_t, kPacket> senders;
     std::array<float, kPacket> weights;  ///< 0: nothing there
   };
-  /// Who takes what was met, and for how many directions it stands.
-  struct Takers {
-    Lanes lanes;
-    float directions;
-    std::uint32_t number;  ///< of the direction
+  struct Ray {
+    float directions;      ///< for how many it stands
+    std::uint32_t number;  ///< its own
   };
 
-  void cast(std::size_t turn, const Sphere::Direction& direction, Lanes lanes, Met* met) const {
-    met->cast = lanes & group_.weigh(direction.towards, met->weights.data());
+  void cast(std::size_t turn, const Sphere::Direction& direction, Met* met) const {
+    met->cast = group_.weigh(direction.towards, met->weights.data());
     met->open = 0;
-    met->outdoors = 0;
+    met->outdoors = met->dim = 0;
     if (met->cast == 0) return;
     group_.cast(baker_.scene_.rays, {turn, direction.towards, met->cast}, &met->hits);
     for (int lane = 0; lane < group_.count(); ++lane) {
       if (!ReceiverGroup::has(met->cast, lane)) continue;
       if (met->hits.ends.triangle[lane] == HitPacket::kNothing) met->open |= Lanes{1} << lane;
+      if (met->hits.shareOfEnd(lane) < 0.5f) met->dim |= Lanes{1} << lane;
       const std::uint32_t from = senderAt({met->hits.ends, lane, direction.towards});
       met->senders[static_cast<std::size_t>(lane)] = from;
       if (from != LightMesh::kNone && baker_.exchange_.seen[from].outdoors) met->outdoors |= Lanes{1} << lane;
     }
     met->outdoors |= met->open;
   }
-  /// Those for whom sky, or what is outdoors, ends at a coarse direction or beside it.
-  static Lanes edgesAt(const Sphere& sphere, std::size_t r, const std::vector<Met>& all) {
-    Lanes open = 0, shut = 0, outdoors = 0, indoors = 0;
+  /// Whether sky, or what is outdoors, ends for any at a coarse direction or beside it. A gap that one's ray
+  /// has met all look for finely: by those alone whose ray met it, it would count where it is met, by what it
+  /// takes there, and where it is missed not at all.
+  static bool isEdge(const Sphere& sphere, std::size_t r, const std::vector<Met>& all) {
+    Lanes open = 0, shut = 0, dim = 0, bright = 0, outdoors = 0, indoors = 0;
     const auto add = [&](const Met& met) {
       open |= met.open;
       shut |= met.cast & ~met.open;
+      dim |= met.dim;
+      bright |= met.cast & ~met.dim;
       outdoors |= met.outdoors;
       indoors |= met.cast & ~met.outdoors;
     };
     add(all[r]);
     for (std::uint32_t k = sphere.first_beside[r]; k < sphere.first_beside[r + 1]; ++k)
       add(all[sphere.beside[k]]);
-    return (open & shut) | (outdoors & indoors);
+    return ((open & shut) | (dim & bright) | (outdoors & indoors)) != 0;
   }
   /// Rays that have met mirrors.
   struct InMirrors {
@@ -245,36 +249,35 @@ class RoomBaker::Looking {
     std::array<std::uint32_t, kPacket> samples;  ///< of the mirrors
   };
 
-  void add(const Sphere::Direction& direction, const Met& met, const Takers& takers) {
-    Layer ends{met.hits.ends, met.senders, {}};
-    for (int lane = 0; lane < group_.count(); ++lane) {
-      const auto i = static_cast<std::size_t>(lane);
-      if (!ReceiverGroup::has(takers.lanes & met.cast, lane)) continue;
-      ends.weights[i] = takers.directions * met.weights[i];
-    }
+  void add(const Sphere::Direction& direction, const Met& met, const Ray& ray) {
+    if (met.cast == 0) return;
+    std::array<float, kPacket> weights{};
+    for (std::size_t i = 0; i < kPacket; ++i)
+      if (ReceiverGroup::has(met.cast, static_cast<int>(i))) weights[i] = ray.directions * met.weights[i];
     for (const HitLayers::Veil& veil : met.hits.veils) {
-      Layer layer{veil.hits, {}, ends.weights};
+      Layer layer{veil.hits, {}, weights};
       for (std::size_t i = 0; i < kPacket; ++i) {
-        layer.senders[i] = senderAt({veil.hits, static_cast<int>(i), direction.towards});
         layer.weights[i] *= veil.shares[i];
+        if (layer.weights[i] > 0.0f)
+          layer.senders[i] = senderAt({veil.hits, static_cast<int>(i), direction.towards});
       }
-      addLayer(direction, layer, takers.number);
+      addLayer(direction, layer, ray.number);
     }
-    for (std::size_t i = 0; i < kPacket; ++i) ends.weights[i] *= met.hits.shareOfEnd(static_cast<int>(i));
-    for (int lane = 0; lane < group_.count(); ++lane) {
-      const auto i = static_cast<std::size_t>(lane);
-      if (ReceiverGroup::has(met.open, lane))
-        views_[i].open[static_cast<std::size_t>(direction.patch)] += ends.weights[i];
+    for (std::size_t i = 0; i < kPacket; ++i) weights[i] *= met.hits.shareOfEnd(static_cast<int>(i));
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      if (ReceiverGroup::has(met.open, static_cast<int>(i)))
+        views_[i].open[static_cast<std::size_t>(direction.patch)] += weights[i];
     }
-    addLayer(direction, ends, takers.number);
+    addLayer(direction, {met.hits.ends, met.senders, weights}, ray.number);
   }
 
   void addLayer(const Sphere::Direction& direction, const Layer& layer, std::uint32_t number) {
     InMirrors in_mirrors;
     for (int lane = 0; lane < group_.count(); ++lane) {
       const auto i = static_cast<std::size_t>(lane);
+      if (!(layer.weights[i] > 0.0f)) continue;
       const std::uint32_t from = layer.senders[i];
-      if (from == LightMesh::kNone || !(layer.weights[i] > 0.0f)) continue;
+      if (from == LightMesh::kNone) continue;
       views_[i].add({from, layer.weights[i]}, baker_.exchange_.scattered(from, direction.towards),
                     direction.patch != SkyPatches::kBelow);
       if (!baker_.exchange_.mirrors(from)) continue;

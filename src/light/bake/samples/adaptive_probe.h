@@ -41,7 +41,7 @@ class AdaptiveProbe {
   /// What the coarse ray of a part met.
   struct CoarseHits {
     Lanes cast, open, leaf;
-    Lanes dim;  ///< behind veils
+    Lanes dim;  ///< behind veils that keep most of the light back
     HitLayers hits;
   };
   using AllCoarseHits = std::array<CoarseHits, SkyPatches::kCoarse>;

@@ -32,7 +32,7 @@ void BakeRays::preferBacks(const RayPacket& rays, HitPacket* hits) const {
     again.valid[i] = on_front ? -1 : 0;
     if (!on_front) continue;
     any = true;
-    const float around = kSamePlace_m / towards.norm() + 1e-5f * hits->distance[i];
+    const float around = samePlace(rays, i, hits->distance[i]);
     reach.from[i] = std::max(hits->distance[i] - around, 0.0f);
     reach.to[i] = hits->distance[i] + around;
   }

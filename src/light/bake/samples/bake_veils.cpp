@@ -11,14 +11,15 @@
 namespace sunlit::light {
 namespace {
 
+constexpr float kNone = 1e-3f;  ///< of light: next to nothing
+
 /// One on a ray's way.
 struct Veil {
   float distance;      ///< in lengths of the direction
   unsigned primitive;  ///< by Embree's number
   float u, v;
   float share;  ///< of the light that comes through it or from it, what comes from it
-
-  bool stops() const { return Cutouts::Query::isThere(share, u, v); }
+  bool stops;   ///< the ray, by chance
 };
 
 /// Of a ray to the normal of what it meets.
@@ -32,13 +33,14 @@ float cosineOf(const RTCFilterFunctionNArguments& at, unsigned i) {
 
 Veil veilAt(const RTCFilterFunctionNArguments& at, const Cutouts::Query& surface, unsigned i) {
   const float u = RTCHitN_u(at.hit, at.N, i), v = RTCHitN_v(at.hit, at.N, i);
-  return {RTCRayN_tfar(at.ray, at.N, i), RTCHitN_primID(at.hit, at.N, i), u, v,
-          surface.share(u, v, cosineOf(at, i))};
+  const float share = surface.share(u, v, cosineOf(at, i));
+  return {RTCRayN_tfar(at.ray, at.N, i), RTCHitN_primID(at.hit, at.N, i), u, v, share,
+          surface.isThere(share, u, v)};
 }
 
 void stopByChance(const RTCFilterFunctionNArguments* at) {
   eachMasked(*at, [at](const Cutouts::Query& surface, unsigned i) {
-    if (!veilAt(*at, surface, i).stops()) at->valid[i] = 0;
+    if (!veilAt(*at, surface, i).stops) at->valid[i] = 0;
   });
 }
 
@@ -60,7 +62,6 @@ struct BakeVeils::Query {
 
   /// Notes veils and lets rays pass those that let light through.
   static void note(const RTCFilterFunctionNArguments* at) {
-    constexpr float kNone = 1e-3f;
     auto& query = *reinterpret_cast<Query*>(at->context);
     eachMasked(*at, [&](const Cutouts::Query& surface, unsigned i) {
       const Veil veil = veilAt(*at, surface, i);
@@ -84,47 +85,60 @@ BakeVeils::BakeVeils(const Geometry& geometry, MaskedGroup veils, RTCDevice devi
   rtcCommitScene(scene_.get());
 }
 
+struct BakeVeils::OfRay {
+  int lane;
+  const std::vector<Veil>& met;  ///< nearest first
+};
+
 void BakeVeils::add(const RayPacket& rays, HitLayers* layers) const {
   RayReach reach;
-  for (int i = 0; i < RayPacket::kSize; ++i)
-    if (layers->ends.triangle[i] != HitPacket::kNothing) reach.to[i] = layers->ends.distance[i];
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    if (rays.valid[i] == 0 || layers->ends.triangle[i] == HitPacket::kNothing) continue;
+    reach.to[i] = layers->ends.distance[i] + samePlace(rays, i, layers->ends.distance[i]);
+  }
   alignas(64) RTCRayHit16 packet = packetOf(rays, reach);
   Query query;
   begin(&query.context);
   intersect(rays.valid, scene_.get(), {Query::note, &query.context}, &packet);
+  std::fill_n(layers->through, RayPacket::kSize, 1.0f);
   for (int i = 0; i < RayPacket::kSize; ++i) {
-    if (rays.valid[i] == 0) continue;
-    if (packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-      const std::uint32_t triangle = triangles_[packet.hit.primID[i]];
-      layers->ends.set(i, {triangle, packet.hit.u[i], packet.hit.v[i], packet.ray.tfar[i]});
-    }
-    putInOrder(packet.ray.tfar[i], &query.met[static_cast<std::size_t>(i)]);
+    if (rays.valid[i] == 0 || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    const std::uint32_t triangle = triangles_[packet.hit.primID[i]];
+    layers->ends.set(i, {triangle, packet.hit.u[i], packet.hit.v[i], packet.ray.tfar[i]});
   }
-  put(query, layers);
+  layers->stopped = layers->ends;
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    std::vector<Veil>& met = query.met[static_cast<std::size_t>(i)];
+    if (rays.valid[i] == 0 || met.empty()) continue;
+    putInOrder(packet.ray.tfar[i], &met);
+    put({i, met}, layers);
+  }
 }
 
 void BakeVeils::stop(const int* valid, RTCRay16* rays) const {
   occluded<kIncoherent>(valid, scene_.get(), rays);
 }
 
-void BakeVeils::put(const Query& query, HitLayers* layers) const {
-  std::fill_n(layers->through, RayPacket::kSize, 1.0f);
-  layers->stopped = layers->ends;
-  for (int i = 0; i < RayPacket::kSize; ++i) {
-    const std::vector<Veil>& met = query.met[static_cast<std::size_t>(i)];
-    bool stopped = false;
-    for (std::size_t k = 0; k < met.size(); ++k) {
-      const Veil& veil = met[k];
-      const Hit hit{triangles_[veil.primitive], veil.u, veil.v, veil.distance};
-      if (layers->veils.size() == k) layers->veils.push_back(HitLayers::Veil::none());
-      HitLayers::Veil& layer = layers->veils[k];
-      layer.hits.set(i, hit);
-      layer.shares[i] = layers->through[i] * veil.share;
-      layers->through[i] *= 1.0f - veil.share;
-      if (stopped || !veil.stops()) continue;
+void BakeVeils::put(const OfRay& ray, HitLayers* layers) const {
+  const int i = ray.lane;
+  bool stopped = false;
+  for (std::size_t k = 0; k < ray.met.size(); ++k) {
+    const Veil& veil = ray.met[k];
+    const Hit hit{triangles_[veil.primitive], veil.u, veil.v, veil.distance};
+    if (!stopped && veil.stops) {
       layers->stopped.set(i, hit);
       stopped = true;
     }
+    const float left = layers->through[i] * (1.0f - veil.share);
+    if (left < kNone) {
+      layers->ends.set(i, hit);
+      if (!stopped) layers->stopped.set(i, hit);
+      return;
+    }
+    if (layers->veils.size() == k) layers->veils.push_back(HitLayers::Veil::none());
+    layers->veils[k].hits.set(i, hit);
+    layers->veils[k].shares[i] = layers->through[i] - left;
+    layers->through[i] = left;
   }
 }
 

@@ -8,9 +8,6 @@
 
 namespace sunlit::light {
 
-/// Faces so near to one another are at one place.
-constexpr float kSamePlace_m = 1e-3f;
-
 /// How much of a face others cover that look the other way, back to back with it, as the bottom of a box does
 /// on the ground, by ten places on it.
 enum class Cover : std::uint8_t { kNone, kPart, kWhole };

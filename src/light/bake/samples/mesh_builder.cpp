@@ -100,20 +100,22 @@ void MeshBuilder::lookAround(const std::vector<std::uint32_t>& from) {
     for (int i = 0; i < count; ++i)
       receivers[static_cast<std::size_t>(i)] = nodes[from[begin + static_cast<std::size_t>(i)]].receiver();
     probe(rays_, directions_, {receivers.data(), count},
-          [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
+          [&](int lane, std::size_t r, float weight, const HitLayers& hits) {
             const auto i = static_cast<std::size_t>(lane);
             all[i] += weight;
-            const std::uint32_t hit = hits.triangle[i];
-            burials[i].add({receivers[i].normal, directions_[r].towards, weight, hits, lane}, geometry_,
+            burials[i].add({receivers[i].normal, directions_[r].towards, weight, hits.ends, lane}, geometry_,
                            traits_);
-            if (hit == HitPacket::kNothing) {
-              open[i] += weight * directions_[r].towards.homogeneous();
-              return;
-            }
-            if (isLeaf(traits_[hit].kind) && receivers[i].normal.z() > kSteep) return;
-            near[i] += weight / std::max(hits.distance[i], 0.05f);
-            if (std::abs(geometry_.planes[hit].normal.dot(receivers[i].normal)) < kSamePlane)
-              nearest[i] = std::min(nearest[i], hits.distance[i]);
+            hits.visit(lane, [&](const HitPacket& met, float share) {
+              const std::uint32_t hit = met.triangle[i];
+              if (hit == HitPacket::kNothing) {
+                open[i] += share * weight * directions_[r].towards.homogeneous();
+                return;
+              }
+              if (isLeaf(traits_[hit].kind) && receivers[i].normal.z() > kSteep) return;
+              near[i] += share * weight / std::max(met.distance[i], 0.05f);
+              if (std::abs(geometry_.planes[hit].normal.dot(receivers[i].normal)) < kSamePlane)
+                nearest[i] = std::min(nearest[i], met.distance[i]);
+            });
           });
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       MeshNode& node = nodes[from[begin + i]];

@@ -101,9 +101,7 @@ class ReceiverGroup {
     const Eigen::Vector3f& towards;
     Lanes lanes;  ///< receivers that cast one
   };
-  /// `hits`: HitPacket or HitLayers.
-  template <typename Hits>
-  void cast(const BakeRays& scene, const Shot& shot, Hits* hits) const {
+  void cast(const BakeRays& scene, const Shot& shot, HitLayers* hits) const {
     const Eigen::Vector3f& towards = shot.towards;
     RayPacket packet;
     for (int i = 0; i < RayPacket::kSize; ++i) {
@@ -134,7 +132,7 @@ class ReceiverGroup {
 template <typename Visit>
 void probe(const BakeRays& scene, const std::vector<SkyPatches::Ray>& rays, const ReceiverGroup& receivers,
            const Visit& visit) {
-  HitPacket hits;
+  HitLayers hits;
   float weights[RayPacket::kSize];
   for (std::size_t r = 0; r < rays.size(); ++r) {
     const ReceiverGroup::Lanes lanes = receivers.weigh(rays[r].towards, weights);

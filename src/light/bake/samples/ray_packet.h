@@ -24,6 +24,13 @@ struct RayPacket {
     valid[lane] = cast ? -1 : 0;
   }
 };
+/// Faces so near to one another are at one place.
+constexpr float kSamePlace_m = 1e-3f;
+/// The same along a ray at this distance, with what rounding makes of it; both in lengths of its direction.
+inline float samePlace(const RayPacket& rays, int lane, float distance) {
+  const Eigen::Vector3f towards(rays.towards_x[lane], rays.towards_y[lane], rays.towards_z[lane]);
+  return kSamePlace_m / towards.norm() + 1e-5f * distance;
+}
 /// Its size as a count of what is taken a packet at a time.
 constexpr std::size_t kPacket = RayPacket::kSize;
 

@@ -28,8 +28,7 @@ class RayScene {
 
   /// What rays meet first, veils apart.
   void cast(const RayPacket& rays, HitPacket* hits) const;
-  /// Adds the veils on the way to `layers->ends`, of which those that let next to nothing through are new
-  /// ends.
+  /// See BakeVeils.
   void addVeils(const RayPacket& rays, HitLayers* layers) const;
   /// Sets hidden[i] to 1 where a ray meets anything within its reach, else to 0. Veils stop it by chance.
   void hide(const RayPacket& rays, const RayReach& reach, std::uint8_t* hidden) const;

@@ -29,8 +29,8 @@ void findNearest(SceneSamples* samples) {
   }
 }
 
-/// Rays that glass stops, by chance, are those that it sends back, scatters or swallows: of them it reflects
-/// more than of all, clear glass everything.
+/// Of a ray glass has the share that it sends back, scatters or swallows: of that it reflects more than of
+/// all, clear glass everything.
 Paint paintOfGlass(const scene::Material& material) {
   Reflection sheet = {Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitZ(), material.base_color.value,
                       material.roughness, material.metalness};

@@ -78,19 +78,21 @@ Outlooks outlooks(const Side* first, int count, const Eigen::Vector3f& place, Su
   }
   Outlooks result;
   probe(around->rays, pattern, {receivers.data(), count},
-        [&](int i, std::size_t r, float weight, const HitPacket& hits) {
+        [&](int i, std::size_t r, float weight, const HitLayers& hits) {
           Outlook& outlook = result[static_cast<std::size_t>(i)];
-          const std::uint32_t hit = hits.triangle[i];
-          if (hit == HitPacket::kNothing) {
-            (pattern[r].towards.z() > 0.0f ? outlook.up : outlook.down) += weight;
-          } else {
-            // Leaves turn their backs to all sides.
+          hits.visit(i, [&](const HitPacket& met, float share) {
+            const std::uint32_t hit = met.triangle[i];
+            if (hit == HitPacket::kNothing) {
+              (pattern[r].towards.z() > 0.0f ? outlook.up : outlook.down) += share * weight;
+              return;
+            }
+            // Leaves turn their backs to all sides, and veils close nothing in.
             const bool back = geometry.planes[hit].normal.dot(pattern[r].towards) > 0.0f &&
                               !isLeaf(triangleKind(geometry, hit));
-            (back ? outlook.backs : outlook.fronts) += weight;
+            (back && &met == &hits.ends ? outlook.backs : outlook.fronts) += share * weight;
             if (back && matter[static_cast<std::size_t>(i)])
               around->backs_seen[hit].store(true, std::memory_order_relaxed);
-          }
+          });
         });
   return result;
 }
@@ -185,8 +187,7 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
         const Outlook& outlook = from_there[i - first];
         if (place == 0 && sides[i].side == 1) {
           TriangleTraits& to = traits[sides[i].triangle];
-          const auto material = static_cast<std::size_t>(geometry.materials[sides[i].triangle]);
-          to.solid = outlook.inside() && !seenThrough(geometry.scene->materials[material]);
+          to.solid = outlook.inside();
         }
         sealed[i] = outlook.sealed() ? 1 : 0;
         useless[i] = outlook.sealed() || outlook.buried() ? 1 : 0;
