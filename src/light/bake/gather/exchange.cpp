@@ -153,10 +153,14 @@ Arrived Exchange::receivedOf(const Sent& sent, std::size_t sample) const {
   return sum;
 }
 
-std::vector<Sending> Exchange::sendings() const {
-  std::vector<Sending> all(sentCount());
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = sendingOf(i); });
-  return all;
+const std::vector<Sending>& Exchange::sendings() const {
+  std::call_once(sendings_found_, [&] {
+    sendings_.resize(sentCount());
+    tbb::parallel_for(std::size_t{0}, sendings_.size(), [&](std::size_t i) {
+      sendings_[i] = i < seen.size() ? sending(i) : sendingToRooms(senderOf(i));
+    });
+  });
+  return sendings_;
 }
 
 Exchange::LookedFor Exchange::sentOf(const StraightLight& lamps, const std::vector<Arrived>& has) const {
@@ -167,8 +171,9 @@ Exchange::LookedFor Exchange::sentOf(const StraightLight& lamps, const std::vect
     const float share = direct > 0.0f ? lamps.looked_for[sample].sum() / direct : 0.0f;
     return share * has[sample].all();
   };
+  const std::vector<Sending>& sends_of = sendings();
   tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) {
-    const Sending sends = sendingOf(i);
+    const Sending& sends = sends_of[i];
     const std::uint32_t sender = senderOf(i);
     Eigen::Array3f light = sends.lamps * lamps.direct[sender] + sends.bounced * has[sender].all();
     sent.part[i] = sends.lamps * lamps.looked_for[sender] + sends.bounced * looked(sender);
@@ -248,7 +253,7 @@ void Exchange::passOnChanges(const Send& send, float dark, int most, OnItsWay* l
 
 std::vector<Arrived> Exchange::passedOn(std::vector<Arrived> first, int most) const {
   std::vector<Arrived> has = std::move(first);
-  const std::vector<Sending> sends_of = sendings();
+  const std::vector<Sending>& sends_of = sendings();
   const auto send = [&](std::size_t i) -> Eigen::Array3f {
     const Sending& sends = sends_of[i];
     Eigen::Array3f sent = sends.bounced * has[senderOf(i)].all();
@@ -263,7 +268,7 @@ std::vector<Arrived> Exchange::passedOn(std::vector<Arrived> first, int most) co
 void Exchange::addLaterBounces(TransportData* data) const {
   SumsOfAll has = sumsOf(*data);
   const std::vector<Arrived> traced = has.passed_on;
-  const std::vector<Sending> sends_of = sendings();
+  const std::vector<Sending>& sends_of = sendings();
   const auto send = [&](std::size_t i) { return sentBy(sends_of[i], has, senderOf(i)); };
   OnItsWay light{&has.passed_on, std::vector<Eigen::Array3f>(sentCount())};
   tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) { light.told[i] = send(i); });

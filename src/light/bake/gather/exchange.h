@@ -105,10 +105,8 @@ class Exchange {
   Sending sending(std::size_t sample) const;
   /// The same towards rooms: of a mirror without what their links find in it.
   Sending sendingToRooms(std::size_t sample) const;
-  /// By the number of what is sent.
-  Sending sendingOf(std::size_t sent) const {
-    return sent < seen.size() ? sending(sent) : sendingToRooms(senderOf(sent));
-  }
+  /// By the number of what is sent; to be asked for once useRooms() was called.
+  const std::vector<Sending>& sendings() const;
   /// Of what a sample has by the sky, and of what it has from the other side, by the sums over all patches:
   /// luminance × π.
   static Eigen::Array3f sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample);
@@ -161,8 +159,6 @@ class Exchange {
   template <typename Send>
   void passOnChanges(const Send& send, float dark, int most, OnItsWay* light) const;
   std::size_t endOf(std::size_t block) const { return std::min(seen.size(), (block + 1) * kSamplesOfTask); }
-  /// sendingOf() all, for who needs it many times.
-  std::vector<Sending> sendings() const;
 
   const SceneSamples& samples_;
   const SkyPatches& patches_;
@@ -174,8 +170,9 @@ class Exchange {
   std::array<float, SkyPatches::kDown> scattered_down_;  ///< scattered() by ground, of each direction
   std::vector<std::uint32_t> instead_;  ///< of each sample of no use: one that is, or LightMesh::kNone
   std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
-  mutable std::once_flag senders_found_;
+  mutable std::once_flag senders_found_, sendings_found_;
   mutable std::vector<std::vector<std::uint32_t>> senders_;
+  mutable std::vector<Sending> sendings_;
 };
 
 template <typename Wanted, typename Visit>

@@ -277,8 +277,9 @@ class Gatherer {
     sent.resize(all);
     std::vector<Eigen::Array3f> others(all);
     const SumsOfAll has = sumsOf(*data);
+    const std::vector<Sending>& sends_of = exchange_.sendings();
     tbb::parallel_for(std::size_t{0}, all, [&](std::size_t i) {
-      const Sending sends = exchange_.sendingOf(i);
+      const Sending& sends = sends_of[i];
       const std::uint32_t sender = exchange_.senderOf(i);
       others[i] = Exchange::sentBy(sends, has, sender);
       sent.set(i, sentRow(*data, sends, sender).data());

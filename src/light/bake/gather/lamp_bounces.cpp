@@ -85,7 +85,7 @@ void LampBounces::addBounced(const std::vector<Arrived>& has, std::vector<AreaLi
     const std::uint32_t root = samples_.mesh.roots[piece.triangle][piece.side];
     if (!LightMesh::isCell(root)) continue;
     const std::uint32_t sample = exchange_.usefulBeside(sampleOn(samples_, root, piece.within));
-    const Sending sends = exchange_.sending(sample);
+    const Sending& sends = exchange_.sendings()[sample];
     Eigen::Array3f light = sends.bounced * has[sample].all();
     if (sends.other != LightMesh::kNone) light += sends.through * has[sends.other].all();
     piece.luminance += piece.looked / kPiFloat * light;
