@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from . import circumstances, names, tables
-from .files import summarise
+from .files import is_self_test, summarise
 
 
 def _same(a, b):
@@ -66,16 +66,35 @@ def _compares_features(series):
 
 
 def _without_features(output):
-    """Black or white pictures are equal in every pixel, which looks like a perfect result."""
+    """At most one. Streams of the self-test are as those that they repeat."""
     counts = {}
     for (a, b, _), series in output.series.items():
         if _compares_features(series):
             counts.setdefault(a, []).append(series.features_a.sum())
-            counts.setdefault(b, []).append(series.features_b.sum())
-    return [f"No detector found a single feature in any picture of {names.condition(stream)}{_exposed(output, stream)}: is it "
-            "black or white all over? Such pictures equal each other in every pixel, which says nothing about localisation. "
-            "With exposure:=auto the night is seen."
-            for stream, found in counts.items() if not any(found)]
+            if not is_self_test(a, b):
+                counts.setdefault(b, []).append(series.features_b.sum())
+    streams = [stream for stream, found in counts.items() if not any(found)]
+    if not streams:
+        return []
+    said = (names.conditions(streams) if len(streams) > names.LISTED
+            else ", ".join(names.condition(stream) + _exposed(output, stream) for stream in streams))
+    return [f"No detector found a single feature in any picture of {said}: they are black, white or plain, or nothing of the world is "
+            f"in view: look at images/ (images:=true) or matches/.{_equal(output, streams)}{_fixed(output, streams)}"]
+
+
+def _equal(output, streams):
+    """Of black or white pictures, which looks like a perfect result."""
+    if any(a in streams and b in streams and not _compares_features(series) and not series.value.any()
+           for (a, b, _), series in output.series.items()):
+        return " Such pictures equal each other in every pixel, which says nothing about localisation."
+    return ""
+
+
+def _fixed(output, streams):
+    captures = [output.captures[stream] for stream in streams if stream in output.captures]
+    if any("fixed" in capture["exposure_mode"] for capture in captures):
+        return " Their exposure is fixed: with exposure:=auto the night is seen."
+    return ""
 
 
 def _exposed(output, stream):

@@ -322,17 +322,30 @@ class Files(InFolder):
         self.assertEqual(len(warnings.warnings(self.read())), 1)
 
     def test_black_pictures_are_pointed_out(self):
-        def row(pose, name, value, features_b):
+        def row(pose, name, value, features_b, b="h12"):
             forms = [value, value, 0, 0]
-            return ",".join(str(one) for one in [pose, f"{pose}.0", "h00", "h12", name, value, 0, features_b, 0, 0, *forms])
+            return ",".join(str(one) for one in [pose, f"{pose}.0", "h00", b, name, value, 0, features_b, 0, 0, *forms])
+
+        def told():
+            found = [one for one in warnings.warnings(self.read()) if "single feature" in one]
+            self.assertEqual(len(found), 1)
+            return found[0]
+
         nan = math.nan
         self.write("frames.csv", [files.FRAMES, row(0, "boolean_rgb", 0.0, 0), row(0, "sift", nan, 0), row(1, "sift", 1.0, 9)])
-        told = [one for one in warnings.warnings(self.read()) if "single feature" in one]
-        self.assertEqual(len(told), 1)
-        self.assertIn("picture of 0 h: is it black", told[0])
+        cause = ": they are black, white or plain, or nothing of the world is in view: look at images/ (images:=true) or matches/."
+        self.assertEqual(told(), "No detector found a single feature in any picture of 0 h" + cause)
         self.write("captures.csv", [files.CAPTURES, "h00,0,0,14,auto,0,-11,0,0,0,0.25,,nan"])
-        told = [one for one in warnings.warnings(self.read()) if "single feature" in one]
-        self.assertIn("0 h (0.25 lx, exposed at EV100 14.0)", told[0])
+        self.assertTrue(told().endswith(" of 0 h (0.25 lx, exposed at EV100 14.0)" + cause), told())
+        self.write("captures.csv", [files.CAPTURES, "h00,0,0,14,fixed,0,-11,0,0,0,0.25,,nan"])
+        self.assertTrue(told().endswith(cause + " Their exposure is fixed: with exposure:=auto the night is seen."), told())
+
+        # All streams in one line, and those of the self-test not at all.
+        os.remove(os.path.join(self.folder, "captures.csv"))
+        for value, equal in ((0.1, ""), (0.0, " Such pictures equal each other in every pixel, which says nothing about localisation.")):
+            self.write("frames.csv", [files.FRAMES, row(0, "boolean_rgb", value, 0), row(0, "sift", nan, 0),
+                                      row(0, "boolean_rgb", 0.0, 0, "self_test/h00"), row(0, "sift", nan, 0, "self_test/h00")])
+            self.assertEqual(told(), "No detector found a single feature in any picture of 0 h, 12 h" + cause + equal)
 
     def test_differences_of_pixels_alone_say_nothing_of_features(self):
         self.write("frames.csv", made.frames(differences=["boolean_rgb"]))
