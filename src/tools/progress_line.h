@@ -11,6 +11,12 @@
 
 namespace sunlit::tools {
 
+/// What is told once of a work that lasts.
+struct LongWork {
+  std::string above = {};    ///< a line that stands above its own
+  std::string way_out = {};  ///< ends its first line where more than a minute is left
+};
+
 /// "baking light: 40 %, 12 s left"; silent for a work of a moment. Of one thread.
 class ProgressLine {
  public:
@@ -19,8 +25,8 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() { end(); }
 
-  /// `seconds_left`: NaN where nobody can tell yet. `about`: a line to stand above that of a work that lasts.
-  void show(const std::string& work, double share, double seconds_left, const std::string& about = "") {
+  /// `seconds_left`: NaN where nobody can tell yet.
+  void show(const std::string& work, double share, double seconds_left, const LongWork& about = {}) {
     const int percent = static_cast<int>(100.0 * share);
     constexpr std::chrono::seconds kMoment(1);
     const Clock::time_point now = Clock::now();
@@ -28,11 +34,13 @@ class ProgressLine {
     const bool lasts = seconds_left >= 1.0 || now - begin_ >= kMoment;
     if (percent == percent_ || (!shown_ && !lasts)) return;
     percent_ = percent;
-    if (!shown_ && !about.empty()) {
+    if (!shown_ && !about.above.empty()) {
       leave();
-      std::fprintf(stderr, "%s\n", about.c_str());
+      std::fprintf(stderr, "%s\n", about.above.c_str());
     }
-    const std::string text = work + ": " + std::to_string(percent) + " %" + textOfTimeLeft(seconds_left);
+    constexpr double kLong_s = 60.0;
+    const std::string text = work + ": " + std::to_string(percent) + " %" + textOfTimeLeft(seconds_left) +
+                             (!shown_ && seconds_left > kLong_s ? about.way_out : "");
     if (::isatty(STDERR_FILENO) == 1) {
       std::fprintf(stderr, "\r%s      ", text.c_str());
       is_open_ = true;

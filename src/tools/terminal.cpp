@@ -20,7 +20,7 @@ studio::Reports onTerminal() {
     if (world->empty()) *world = text;
   };
   reports.baking = [line, world](double share, double seconds_left) {
-    line->show("baking light", share, seconds_left, *world);
+    line->show("baking light", share, seconds_left, {*world, " (--bounced off: without it)"});
   };
   return reports;
 }

@@ -96,6 +96,9 @@ TEST(ProgressLine, OfABakeThatLastsStandsBelowWhatIsSaidOfTheWorld) {
   };
   EXPECT_EQ(works(60.0),
             "World shop.glb: 9 triangles, 90 × 60 × 383 m\nbaking light: 25 %, 1 min 00 s left\n");
+  EXPECT_EQ(works(61.0),
+            "World shop.glb: 9 triangles, 90 × 60 × 383 m\n"
+            "baking light: 25 %, 1 min 01 s left (--bounced off: without it)\n");
   EXPECT_EQ(works(0.1), "");
 }
 
