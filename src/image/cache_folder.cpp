@@ -19,6 +19,8 @@
 #include <utility>
 #include <vector>
 
+#include "sunlit/quantity/memory.h"
+
 namespace sunlit::image {
 namespace {
 
@@ -199,6 +201,13 @@ CacheUse::CacheUse(const fs::path& kept) : descriptor_(open(kept.c_str(), O_RDON
 
 CacheUse::~CacheUse() {
   if (descriptor_ >= 0) close(descriptor_);
+}
+
+std::string notKeptText(const std::string& what, const std::exception& problem) {
+  const auto* of_file = dynamic_cast<const fs::filesystem_error*>(&problem);
+  return what + " not kept: " +
+         (of_file ? of_file->path1().string() + ": " + of_file->code().message() : reasonInWords(problem)) +
+         "; SUNLIT_CACHE_DIR (of tools, --cache DIR) names another folder";
 }
 
 std::uintmax_t CacheFolder::usedBytes() const {

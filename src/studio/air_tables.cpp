@@ -8,7 +8,7 @@
 
 #include "studio/sealed_files.h"
 #include "studio/tell.h"
-#include "sunlit/quantity/memory.h"
+#include "sunlit/image/cache_folder.h"
 
 namespace sunlit::studio {
 namespace {
@@ -38,7 +38,7 @@ sky::TableStore airTablesIn(const std::filesystem::path& folder, const Reports& 
           name, [&](const SealedFiles::Sink& sink) { sink(numbers.data(), numbers.size() * sizeof(float)); });
       files->tidy(warn);
     } catch (const std::exception& problem) {
-      warn("tables of the air are not kept: " + reasonInWords(problem));
+      warn(image::notKeptText("tables of the air are", problem));
     }
   };
   return store;

@@ -9,8 +9,8 @@
 
 #include "studio/sealed_files.h"
 #include "studio/tell.h"
+#include "sunlit/image/cache_folder.h"
 #include "sunlit/image/content_hash.h"
-#include "sunlit/quantity/memory.h"
 #include "sunlit/render/texture_sizes.h"
 #include "sunlit/scene/race_track.h"
 #include "sunlit/scene/scene_bytes.h"
@@ -58,7 +58,7 @@ scene::FlatScene keptRaceTrack(const std::filesystem::path& folder, const Report
     // That of the file, which other processes share.
     if (std::optional<scene::FlatScene> kept = found(files, name)) return *std::move(kept);
   } catch (const std::exception& problem) {
-    tell(reports.warning, "the built-in world is not kept: " + reasonInWords(problem));
+    tell(reports.warning, image::notKeptText("the built-in world is", problem));
   }
   return scene ? *std::move(scene) : scene::flattened(make());
 }

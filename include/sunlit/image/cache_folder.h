@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -17,6 +18,10 @@ namespace sunlit::image {
 /// SUNLIT_CACHE_DIR, or sunlit in XDG_CACHE_HOME, or .cache/sunlit in HOME, or else in the system's temporary
 /// folder.
 std::string usualCacheFolder();
+
+/// What is told where `what` ("baked light is") cannot be kept in such a folder: why, without what libraries
+/// say around it, and how another folder is named.
+std::string notKeptText(const std::string& what, const std::exception& problem);
 
 /// How far whoever has the turn to make a file is with it.
 struct CacheProgress {

@@ -77,7 +77,10 @@ TEST(AirTables, ThatCannotBeKeptAreWarnedOf) {
   store.keep("some", {1.0f});
   EXPECT_EQ(store.find("some"), Numbers());
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find(folder.file("file")), std::string::npos) << warnings[0];
+  EXPECT_EQ(warnings[0],
+            "tables of the air are not kept: " + folder.file("file") +
+                "/below: Not a directory; SUNLIT_CACHE_DIR (of tools, --cache DIR) names another "
+                "folder");
 }
 
 }  // namespace

@@ -31,13 +31,19 @@ std::unique_ptr<const TransportData> readIfThere(const fs::path& file, const ima
   }
 }
 
+void tellNotKept(const std::exception& problem, const Log& log) {
+  if (log) log(image::notKeptText("baked light is", problem));
+}
+
 /// Empty if the folder can't be used.
 std::optional<fs::path> usableFolder(const std::string& folder, const Log& log) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error) return fs::path(folder);
-  if (log) log("baked light is not kept: " + folder + ": " + error.message());
-  return std::nullopt;
+  try {
+    fs::create_directories(folder);
+    return fs::path(folder);
+  } catch (const fs::filesystem_error& problem) {
+    tellNotKept(problem, log);
+    return std::nullopt;
+  }
 }
 
 std::optional<image::CacheTurn> turnFor(const fs::path& file, const BakeListener& listener) {
@@ -51,7 +57,7 @@ std::optional<image::CacheTurn> turnFor(const fs::path& file, const BakeListener
   try {
     return image::CacheTurn::await(file, waits);
   } catch (const std::system_error& problem) {
-    if (listener.log) listener.log(std::string("baked light is not kept: ") + problem.what());
+    tellNotKept(problem, listener.log);
     return std::nullopt;
   }
 }
@@ -60,7 +66,7 @@ void keep(const fs::path& file, const image::ContentHash& key, const TransportDa
   try {
     writeBake(file, key, data);
   } catch (const std::exception& problem) {
-    if (log) log("baked light is not kept: " + reasonInWords(problem));
+    tellNotKept(problem, log);
   }
 }
 
