@@ -69,7 +69,8 @@ class Reader {
 
  private:
   [[noreturn]] void fail(const std::string& wrong) const {
-    throw std::runtime_error(file_ + ":" + std::to_string(line_number_) + ": " + wrong);
+    throw std::runtime_error(file_ + (line_number_ > 0 ? ":" + std::to_string(line_number_) : "") + ": " +
+                             wrong);
   }
 
   double number(const std::string& text) const {
@@ -89,7 +90,8 @@ class Reader {
         fail(
             "expected x,y,z or x,y with commas, or the eight columns of a TUM trajectory with blanks, "
             "found " +
-            std::to_string(columns_) + (columns_ == 1 ? " column" : " columns"));
+            std::to_string(columns_) + (columns_ == 1 ? " column" : " columns") +
+            (is_csv_ ? " separated by commas" : ""));
       }
       if (is_csv_ && isHeader(fields)) return;
       if (is_csv_ && std::none_of(fields.begin(), fields.end(), finiteNumber))

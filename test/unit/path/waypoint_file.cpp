@@ -79,14 +79,16 @@ TEST_F(WaypointFile, NamesAHeaderOfOtherColumns) {
 TEST_F(WaypointFile, NamesTheLineOfWrongColumns) {
   const std::string expected =
       ": expected x,y,z or x,y with commas, or the eight columns of a TUM trajectory with blanks, found ";
-  EXPECT_EQ(errorOf("1,2,3,4\n"), ":1" + expected + "4 columns");
+  EXPECT_EQ(errorOf("1,2,3,4\n"), ":1" + expected + "4 columns separated by commas");
+  EXPECT_EQ(errorOf("time,x,y,z,qx,qy,qz,qw\n0,1,2,3,0,0,0,1\n"),
+            ":1" + expected + "8 columns separated by commas");
   EXPECT_EQ(errorOf("#\n1;2;3\n"), ":2" + expected + "1 column");
   EXPECT_EQ(errorOf("1 2 3\n"), ":1" + expected + "3 columns");
   EXPECT_EQ(errorOf("1,2,3\n4,5\n"), ":2: expected 3 columns as above, found 2");
 }
 
 TEST_F(WaypointFile, NeedsTwoDifferentPoints) {
-  EXPECT_EQ(errorOf(""), ":0: a path needs two waypoints or more, there are 0");
+  EXPECT_EQ(errorOf(""), ": a path needs two waypoints or more, there are 0");
   EXPECT_EQ(errorOf("x,y,z\n"), ":1: a path needs two waypoints or more, there are 0");
   EXPECT_EQ(errorOf("1,2,3\n"), ":1: a path needs two waypoints or more, there is 1");
   EXPECT_EQ(errorOf("1,2,3\n4,5,6\n4,5,6\n"),
