@@ -91,7 +91,7 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
     light::World& world = worlds_.emplace_back(
         stopwatch_.measure("load", "surfaces", [&] { return light::weathered(dry, state); }));
     if (!scene::isDry(state)) tell(reports.note, "Surfaces " + textOf(state));
-    if (reports.loaded && worlds_.size() == 1) reports.loaded(printOf(world, options.bake));
+    if (reports.loaded && worlds_.size() == 1) reports.loaded(world, printOf(world, options.bake));
     world.transport =
         stopwatch_.measure("load", "transport", [&] { return bake(world, options.bake, reports); });
   }
@@ -219,6 +219,11 @@ image::DepthImage Studio::depth() {
 
 bool Studio::seesAnything() const {
   return camera_->seesAnything();
+}
+
+std::string Studio::whySeesNothing() const {
+  return "nothing of the world is in view, " + reachOf(boundsOf(world())) +
+         "; surfaces with one side do not show the other";
 }
 
 }  // namespace sunlit::studio

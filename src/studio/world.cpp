@@ -36,16 +36,23 @@ std::string countOf(std::size_t triangles) {
   return std::to_string(triangles) + " triangles";
 }
 
-/// With its extents: one in millimetres is seen to be.
-std::string sizeOf(const scene::Shape& shape) {
+Eigen::AlignedBox3f boxAround(const scene::Shape& shape) {
   Eigen::AlignedBox3f box;
   for (const scene::Chunk& chunk : shape.chunks) box.extend(chunk.box);
+  return box;
+}
+
+/// In short.
+std::string metresOf(double length_m) {
+  return std::abs(length_m) < 100.0 ? sunlit::textOf(length_m, 3) : sunlit::textOf(std::round(length_m));
+}
+
+/// With its extents: one in millimetres is seen to be.
+std::string sizeOf(const scene::Shape& shape) {
+  const Eigen::AlignedBox3f box = boxAround(shape);
   std::string extents;
-  for (const float extent : box.sizes()) {
-    const auto extent_m = static_cast<double>(extent);
-    extents += (extents.empty() ? " in " : " x ") +
-               (extent_m < 100.0 ? sunlit::textOf(extent_m, 3) : sunlit::textOf(std::round(extent_m)));
-  }
+  for (const float extent : box.sizes())
+    extents += (extents.empty() ? " in " : " x ") + metresOf(static_cast<double>(extent));
   return countOf(shape.triangles.size()) + (box.isEmpty() ? "" : extents + " m");
 }
 
@@ -103,6 +110,24 @@ scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
 light::World loadWorld(const WorldOptions& options, const std::string& cache_folder,
                        const std::optional<scene::Robot>& robot, const Reports& reports) {
   return inMemory(loading(options), [&] { return flatWorld(options, cache_folder, robot, reports); });
+}
+
+Eigen::AlignedBox3d boundsOf(const light::World& world) {
+  return boxAround(*world.geometry->shape).cast<double>();
+}
+
+std::string reachOf(const Eigen::AlignedBox3d& bounds) {
+  if (bounds.isEmpty()) return "which has nothing that stands still";
+  const auto corner = [](const Eigen::Vector3d& point) {
+    return metresOf(point.x()) + "," + metresOf(point.y()) + "," + metresOf(point.z());
+  };
+  return "which reaches from " + corner(bounds.min()) + " to " + corner(bounds.max()) + " m";
+}
+
+bool isFarFrom(const Eigen::AlignedBox3d& bounds, const Eigen::Vector3d& place, double far_m) {
+  constexpr double kSizes = 10.0;
+  return !bounds.isEmpty() &&
+         bounds.exteriorDistance(place) > std::min(far_m, kSizes * bounds.diagonal().norm());
 }
 
 void requireGroups(const light::World& world, const light::LampOptions& lamps, const Reports& reports) {

@@ -1,11 +1,9 @@
 // One picture of a world under a given sun.
-#include <Eigen/Geometry>
 #include <cstdio>
 #include <exception>
 #include <string>
 
 #include "sunlit/image/files.h"
-#include "sunlit/quantity/range.h"
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
@@ -23,17 +21,6 @@ sky::Daylight daylightOf(const SnapshotOptions& options, const studio::Studio& s
                       options.place.weather);
 }
 
-/// Where a camera would find the world: "which reaches from …".
-std::string placeOf(const light::Geometry& geometry) {
-  Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& position : geometry.positions) box.extend(position);
-  const auto corner = [](const Eigen::Vector3f& point) {
-    return textOf(point.x(), 4) + "," + textOf(point.y(), 4) + "," + textOf(point.z(), 4);
-  };
-  return "which reaches from " + corner(box.min()) + " to " + corner(box.max()) +
-         " m; surfaces with one side do not show the other";
-}
-
 void takeSnapshot(const SnapshotOptions& options) {
   const ViewOptions& view = options.view;
   studio::Studio studio(view.studio, std::nullopt, onTerminal());
@@ -43,8 +30,7 @@ void takeSnapshot(const SnapshotOptions& options) {
   image::writePng(options.output, developed.picture);
   if (!options.depth_output.empty()) image::writePfm(options.depth_output, studio.depth());
   if (!studio.seesAnything())
-    std::fprintf(stderr, "warning: nothing of the world is in view, %s\n",
-                 placeOf(*studio.world().geometry).c_str());
+    std::fprintf(stderr, "warning: %s\n", studio.whySeesNothing().c_str());
   else if (image::isBlack(developed.picture))
     std::fprintf(stderr, "warning: the picture is black all over: %s\n", image::kWhyBlack);
   const std::string eclipse =

@@ -6,6 +6,10 @@
 
 #include "sunlit/light/transport.h"
 
+namespace sunlit::light {
+struct World;
+}
+
 namespace sunlit::studio {
 
 /// Each may be left unset, and is called on a thread of the work, never on two at once.
@@ -17,7 +21,7 @@ struct Reports {
   std::function<void()> check = {};
   /// What Studio has loaded and is about to bake, with its light::fingerprint(); what it throws ends the
   /// work.
-  std::function<void(const std::string& fingerprint)> loaded = {};
+  std::function<void(const light::World& world, const std::string& fingerprint)> loaded = {};
 };
 
 }  // namespace sunlit::studio

@@ -127,6 +127,8 @@ class Studio {
   /// Whether anything of the world is in what look() looks at, be it no more than what blends, which has no
   /// depth.
   bool seesAnything() const;
+  /// What is said where it does not.
+  std::string whySeesNothing() const;
 
   const light::World& world() const { return worlds_.front(); }
   /// One a state.

@@ -1,6 +1,7 @@
 /// A world from a name or a file to what light can travel through.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <optional>
 #include <string>
@@ -81,6 +82,16 @@ scene::Scene loadScene(const WorldOptions& options, const Reports& reports);
 /// is kept in `cache_folder`. Throws what scene::load() throws.
 light::World loadWorld(const WorldOptions& options, const std::string& cache_folder,
                        const std::optional<scene::Robot>& robot, const Reports& reports);
+
+/// Around all that stands still, m in `map`; empty where nothing does.
+Eigen::AlignedBox3d boundsOf(const light::World& world);
+
+/// Of those bounds, for who sees nothing of the world: "which reaches from -1,-2,0 to 3,4,5 m".
+std::string reachOf(const Eigen::AlignedBox3d& bounds);
+
+/// Whether `place` is farther from those bounds than a camera sees, `far_m`, or than ten times their size,
+/// from where they are no more than 6° wide; never of what is empty.
+bool isFarFrom(const Eigen::AlignedBox3d& bounds, const Eigen::Vector3d& place, double far_m);
 
 /// Throws std::invalid_argument, naming the groups that there are, for one that is to stay dark and that no
 /// lamp of `world` belongs to. Warns where there are more groups than the bake tells apart.

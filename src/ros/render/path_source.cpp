@@ -65,6 +65,14 @@ std::string PathSource::fingerprint() const {
   return print.text();
 }
 
+void PathSource::warnIfFarFrom(const Eigen::AlignedBox3d& bounds, double far_m) const {
+  for (int index = first(); index < end(); index += stride())
+    if (!studio::isFarFrom(bounds, mapFromCamera(index).translation(), far_m)) return;
+  const std::string path = options_.file.empty() ? "the path on " + topic() : options_.file;
+  ROS_WARN("No pose of %s is near the world, %s: is it in another frame?", path.c_str(),
+           studio::reachOf(bounds).c_str());
+}
+
 void PathSource::onPath(const ros::MessageEvent<const nav_msgs::Path>& event) {
   if (event.getPublisherName() == ros::this_node::getName()) return;  // its poses, where the topic is `path`
   const nav_msgs::Path& message = *event.getConstMessage();

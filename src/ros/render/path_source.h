@@ -38,6 +38,9 @@ class PathSource {
   std::string drive() const { return path::driveOf(options_.sampling); }
   /// Tells paths apart by all their poses; 16 hexadecimal digits.
   std::string fingerprint() const;
+  /// Warns where none of the poses to render is near a world of these bounds (m in `map`), by
+  /// studio::isFarFrom(): the path may be of another frame.
+  void warnIfFarFrom(const Eigen::AlignedBox3d& bounds, double far_m) const;
   int size() const { return static_cast<int>(map_from_camera_.size()); }
   /// The indices to render are first(), first() + stride(), … below end().
   int first() const { return options_.selection.first; }

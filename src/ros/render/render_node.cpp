@@ -135,13 +135,15 @@ studio::Reports RenderNode::reports() {
     activity_.say("baking", "", {share, seconds_left});
     diagnostics_.update();
   };
-  if (files_) reports.loaded = [this](const std::string& print) { onLoaded(print); };
+  reports.loaded = [this](const light::World& world, const std::string& print) { onLoaded(world, print); };
   return reports;
 }
 
-void RenderNode::onLoaded(const std::string& world_print) {
+void RenderNode::onLoaded(const light::World& world, const std::string& world_print) {
   world_print_ = world_print;
-  if (!files_->goesOn() || !path_ || !path_->ready()) return;
+  if (path_ && path_->ready())
+    path_->warnIfFarFrom(studio::boundsOf(world), options_.studioOptions().render.far_m);
+  if (!files_ || !files_->goesOn() || !path_ || !path_->ready()) return;
   keepInputs();
   const PacingOptions& pacing = options_.pacing;
   if (pacing.exit_when_done && pacing.resume_at >= path_->end() - path_->first()) throw NothingLeft();
@@ -169,6 +171,9 @@ int RenderNode::run() {
 
 void RenderNode::reportLosses() const {
   // Not through the log, which a signal has closed already.
+  if (streams_.blindPoses() > 0)
+    std::fprintf(stderr, "Poses that see nothing of the world: %zu of %zu\n", streams_.blindPoses(),
+                 streams_.poses());
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     const StreamState& state = streams_.state(i);
     if (state.black > 0)

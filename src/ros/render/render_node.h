@@ -62,7 +62,7 @@ class RenderNode {
   void report(Step step);
   void keepTiming();
   /// Refuses to go on with what was made from something else before that takes any time.
-  void onLoaded(const std::string& world_print);
+  void onLoaded(const light::World& world, const std::string& world_print);
   /// What all is made from, compared with the run that this one goes on with, or written.
   void keepInputs();
   /// Before the first pose, once all readers were heard: an evaluator that refuses its folder never is, and

@@ -70,9 +70,16 @@ Streams::Streams(const RenderConditions& conditions, const StreamOptions& option
 
 void Streams::take(const Shot& shot, const std::optional<Shot>& next) {
   studio_.look(shot.map_from_camera, shot.map_from_links, shot.motion);
+  countView(shot);
   std::future<void> exposed = std::async(std::launch::async, [&] { expose(shot); });
   if (next) studio_.lookAhead(next->map_from_camera, next->map_from_links);
   exposed.get();
+}
+
+void Streams::countView(const Shot& shot) {
+  ++poses_;
+  if (studio_.seesAnything() || blind_poses_++ > 0) return;
+  ROS_WARN("At pose %d %s. More like it are counted", shot.pose_index, studio_.whySeesNothing().c_str());
 }
 
 void Streams::expose(const Shot& shot) {

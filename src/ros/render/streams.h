@@ -69,6 +69,9 @@ class Streams {
 
   /// Of conditions.
   std::size_t size() const { return streams_.size(); }
+  std::size_t poses() const { return poses_; }  ///< taken
+  /// Of these, those from which nothing of the world is in view.
+  std::size_t blindPoses() const { return blind_poses_; }
   const StreamState& state(std::size_t index) const { return streams_[index]->state; }
   /// Messages of its sky that could not be used.
   std::size_t refusedSkies(std::size_t index) const { return streams_[index]->sky.refused(); }
@@ -112,11 +115,13 @@ class Streams {
   /// Lights and publishes what the studio looks at.
   void expose(const Shot& shot);
   Stream& find(const std::string& condition);
+  void countView(const Shot& shot);
 
   studio::Studio& studio_;
   studio::Sky& sky_;
   WantedSubscribers wanted_;
   PoseOutput pose_output_;
+  std::size_t poses_ = 0, blind_poses_ = 0;
   std::vector<std::unique_ptr<Stream>> streams_;
 };
 

@@ -103,6 +103,36 @@ class RenderControl(unittest.TestCase):
         self.assertIn("Pictures of a that are black all over: 1 of 2", told[1])
         reader.close()
 
+    def said_along(self, waypoints, **path):
+        """What a node says of two poses along these lines of a file."""
+        reader = Reader(["a"], node="/lost")
+        self.addCleanup(reader.close)
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+            file.write("x,y,z\n" + waypoints)
+            file.flush()
+            tree = parameters(conditions=["a"], path=dict({"file": file.name}, **path), subscribers={"images": 1},
+                              exit_when_done=True)
+            with RenderNode("lost", tree) as node:
+                status, said = node.end()
+            self.assertEqual(status, 0, said)
+            return [line.replace(file.name, "FILE") for line in said]
+
+    def test_a_path_in_another_frame_is_told_of_before_the_bake(self):
+        said = self.said_along("592000,5760000,0\n592003,5760001,0\n", spacing=2.0)
+        told = [line for line in said if "of FILE is near the world" in line]
+        self.assertEqual(len(told), 1, said)
+        self.assertRegex(told[0], "WARN.*No pose of FILE is near the world, which reaches from .* m: is it in another frame")
+        self.assertLess(said.index(told[0]), [k for k, line in enumerate(said) if "Sky light and bounced light at" in line][0])
+
+    def test_poses_that_see_nothing_of_the_world_are_told_of(self):
+        # High above them; a level camera sees no ground of 400 m from there.
+        said = self.said_along("0,0,0\n3,0,0\n", spacing=2.0, camera_height=900.0)
+        told = [line for line in said if "nothing of the world" in line]
+        self.assertEqual(len(told), 2, said)
+        self.assertRegex(told[0], "WARN.*At pose 0 nothing of the world is in view, which reaches from .* More like it are counted")
+        self.assertEqual(told[1], "Poses that see nothing of the world: 2 of 2")
+        self.assertFalse([line for line in said if "is near the world" in line])
+
     def test_view_is_the_image_of_the_path_at_the_same_pose(self):
         reader = Reader(["a", "b"], node="/viewed")
         with RenderNode("viewed", parameters(conditions=["a", "b"], path={"count": 5},

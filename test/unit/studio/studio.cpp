@@ -52,6 +52,25 @@ TEST(Studio, SeesWhatBlendsToo) {
   EXPECT_FALSE(studio.seesAnything());
 }
 
+TEST(Studio, SaysWhereTheWorldIsThatIsNotInView) {
+  Studio studio(boxes());
+  const Eigen::AlignedBox3d bounds = boundsOf(studio.world());
+  EXPECT_EQ(studio.whySeesNothing(), "nothing of the world is in view, " + reachOf(bounds) +
+                                         "; surfaces with one side do not show the other");
+  EXPECT_EQ(reachOf({Eigen::Vector3d(-1.25, 592000.4, 0.0), Eigen::Vector3d(99.96, 592003.0, 2.0)}),
+            "which reaches from -1.25,592000,0 to 100,592003,2 m");
+}
+
+TEST(Studio, TellsWhatIsFarFromAWorld) {
+  const Eigen::AlignedBox3d cube(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(4, 3, 0));  // 5 m wide
+  EXPECT_FALSE(isFarFrom(cube, {2, 1, 0}, 20000.0));
+  EXPECT_FALSE(isFarFrom(cube, {53.9, 1, 0}, 20000.0));
+  EXPECT_TRUE(isFarFrom(cube, {54.1, 1, 0}, 20000.0));
+  EXPECT_TRUE(isFarFrom(cube, {592000, 5760000, 0}, 20000.0));
+  EXPECT_TRUE(isFarFrom(cube, {2, 1, -20}, 10.0)) << "nothing is seen so far away";
+  EXPECT_FALSE(isFarFrom({}, {592000, 5760000, 0}, 20000.0)) << "there is nothing to be near to";
+}
+
 TEST(Studio, RefusesBadOptionsBeforeItLoadsTheWorld) {
   StudioOptions options = boxes();
   options.world.name = "no_such.world";
@@ -444,7 +463,7 @@ TEST(Studio, TellsWhatItLoadsToWhoListens) {
 std::vector<std::string> printsOf(StudioOptions options) {
   std::vector<std::string> prints;
   Reports reports;
-  reports.loaded = [&](const std::string& print) { prints.push_back(print); };
+  reports.loaded = [&](const light::World&, const std::string& print) { prints.push_back(print); };
   reports.baking = [&](double, double) { EXPECT_EQ(prints.size(), 1u); };
   const Studio studio(options, std::nullopt, reports);
   prints.push_back(light::fingerprint(studio.world()));
@@ -473,7 +492,7 @@ TEST(Studio, BakesNothingForWhoRefusesWhatIsLoaded) {
   options.bake.enabled = true;
   options.bake.cache_dir = folder.file("cache");
   Reports reports;
-  reports.loaded = [](const std::string&) { throw std::runtime_error("another world"); };
+  reports.loaded = [](const light::World&, const std::string&) { throw std::runtime_error("another world"); };
   reports.baking = [](double, double) { ADD_FAILURE(); };
   EXPECT_EQ(messageOf<std::runtime_error>([&] { Studio studio(options, std::nullopt, reports); }),
             "another world");
