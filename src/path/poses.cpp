@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 
 #include "path/waypoint_check.h"
@@ -19,6 +21,11 @@ constexpr double kEndTolerance = 1e-6;
 
 /// More poses than this are a mistake of spacing, and would fill the memory.
 constexpr double kMostPoses = 1e7;
+
+/// On a segment, which has one at its start even where these are none.
+double posesWanted(double length_m, const PathOptions& options) {
+  return std::ceil(length_m / options.spacing_m - kEndTolerance);
+}
 
 [[noreturn]] void failAt(std::size_t index, const std::string& wrong) {
   throw std::invalid_argument("waypoint " + std::to_string(index) + ": " + wrong);
@@ -90,6 +97,35 @@ std::string leftOutText(std::size_t count) {
          " left out, less than 1 mm in plan view from the one before";
 }
 
+std::string crowdedText(const Waypoints& waypoints, const PathOptions& options) {
+  constexpr double kNearBy = 0.1, kMany = 0.2;  // of the spacing, of the poses
+  std::size_t poses = 0, crowded = 0;
+  double nearest_m = std::numeric_limits<double>::infinity(), farthest_m = 0.0, longest_m = 0.0;
+  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    const double length_m = (waypoints[i + 1] - waypoints[i]).norm();
+    const double count = posesWanted(length_m, options);
+    poses += static_cast<std::size_t>(std::max(count, 1.0));
+    longest_m = std::max(longest_m, length_m);
+    const bool is_last = i + 2 == waypoints.size();  // no pose follows there
+    if (is_last || count < 2.0 || length_m - (count - 1.0) * options.spacing_m >= kNearBy * options.spacing_m)
+      continue;
+    ++crowded;
+    nearest_m = std::min(nearest_m, length_m);
+    farthest_m = std::max(farthest_m, length_m);
+  }
+  if (crowded == 0 || static_cast<double>(crowded) < kMany * static_cast<double>(poses)) return "";
+  const std::string nearest = textOf(nearest_m, 3), farthest = textOf(farthest_m, 3);
+  std::string text =
+      std::to_string(crowded) + " of " + std::to_string(poses) +
+      " poses lie less than a tenth of the spacing behind the one before, since waypoints are " +
+      (nearest == farthest ? "" : nearest + " to ") + farthest + " m apart";
+  // With two digits, and not below it.
+  const double digit = std::pow(10.0, std::floor(std::log10(longest_m)) - 1.0);
+  if (longest_m < (1.0 + kNearBy) * options.spacing_m)
+    text += ": a spacing of " + textOf(digit * std::ceil(longest_m / digit), 3) + " m takes one a waypoint";
+  return text;
+}
+
 std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options) {
   validate(options);
   if (waypoints.size() < 2) throw std::invalid_argument(tooFew(waypoints.size()));
@@ -105,7 +141,7 @@ std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const Path
     const Eigen::Vector3d left(-std::sin(heading), std::cos(heading), 0.0);
     const Eigen::Vector3d moved = Eigen::Vector3d(0.0, 0.0, options.height_m) + options.offset_m * left;
     const double yaw = heading + options.yaw.rad();
-    const double wanted = std::ceil(length / options.spacing_m - kEndTolerance);
+    const double wanted = posesWanted(length, options);
     if (static_cast<double>(poses.size()) + wanted > kMostPoses) {
       failAt(i, "from here to the next are " + std::to_string(length) +
                     " m, more poses than the 10 million allowed");

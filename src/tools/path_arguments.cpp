@@ -37,7 +37,10 @@ path::Waypoints waypointsOf(const PathWords& words, const studio::WorldOptions& 
   if (words.file.empty() && world.name != scene::kRaceTrack)
     throw std::invalid_argument(std::string("--path FILE is missing: only the world ") + scene::kRaceTrack +
                                 " has a path of its own");
-  return waypointsOf(words.file);
+  path::Waypoints waypoints = waypointsOf(words.file);
+  const std::string crowded = words.selection.stride > 1 ? "" : path::crowdedText(waypoints, words.sampling);
+  if (!crowded.empty()) std::fprintf(stderr, "warning: %s\n", crowded.c_str());
+  return waypoints;
 }
 
 std::vector<Eigen::Isometry3d> posesAlong(const path::Waypoints& waypoints, const PathWords& words) {

@@ -27,8 +27,8 @@ struct PathWords {
 /// --path, --spacing, --height, --first, --count and --stride.
 void addPath(studio::CommandLine* line, PathWords* words);
 
-/// As waypointsOf() of their file. Throws what studio::requireWorld() throws, too, and std::invalid_argument
-/// where `world` has no path of its own, and none is given.
+/// As waypointsOf() of their file; warns on stderr of path::crowdedText(). Throws what studio::requireWorld()
+/// throws, too, and std::invalid_argument where `world` has no path of its own, and none is given.
 path::Waypoints waypointsOf(const PathWords& words, const studio::WorldOptions& world);
 
 /// map_from_camera_link of all poses along the path, of which those that are selected are there. Throws what

@@ -74,6 +74,11 @@ std::int64_t nanosecondsTo(int index, double rate_hz);
 /// ±10,000 km, two consecutive points less than 1 mm apart in plan view, or more than 10 million poses.
 std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options);
 
+/// What is told of posesAlong() where a fifth of its poses or more lie less than a tenth of the spacing
+/// behind the one before, since waypoints are a little farther apart than so many spacings; empty where they
+/// do not.
+std::string crowdedText(const Waypoints& waypoints, const PathOptions& options);
+
 /// What was recorded or planned may stand still: `waypoints` without those less than 1 mm in plan view from
 /// the last one that is kept. Throws std::invalid_argument naming the waypoint, by its place in `waypoints`,
 /// for a coordinate that is not within ±10,000 km.

@@ -107,6 +107,8 @@ void PathSource::refusePath(const std::string& reason) {
 void PathSource::sample(const path::Waypoints& waypoints) {
   std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypoints, options_.sampling);
   path::requireWithin(options_.selection, static_cast<int>(poses.size()), "path/");
+  const std::string crowded = stride() > 1 ? "" : path::crowdedText(waypoints, options_.sampling);
+  if (!crowded.empty()) ROS_WARN("%s", crowded.c_str());
   map_from_camera_ = std::move(poses);
 }
 

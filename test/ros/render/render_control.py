@@ -124,6 +124,13 @@ class RenderControl(unittest.TestCase):
         self.assertRegex(told[0], "WARN.*No pose of FILE is near the world, which reaches from .* m: is it in another frame")
         self.assertLess(said.index(told[0]), [k for k, line in enumerate(said) if "Sky light and bounced light at" in line][0])
 
+    def test_a_spacing_a_little_below_the_distance_of_waypoints_is_told_of_unless_only_some_poses_are_taken(self):
+        for stride, expected in ((1, 1), (10, 0)):
+            said = self.said_along("".join("%.2f,0,0\n" % (1.21 * k) for k in range(7)), spacing=1.2, count=2, stride=stride)
+            told = [line for line in said if "poses lie less than a tenth of the spacing" in line]
+            self.assertEqual(len(told), expected, said)
+            self.assertTrue(all("WARN" in line and "a spacing of 1.3 m takes one a waypoint" in line for line in told), told)
+
     def test_poses_that_see_nothing_of_the_world_are_told_of(self):
         # High above them; a level camera sees no ground of 400 m from there.
         said = self.said_along("0,0,0\n3,0,0\n", spacing=2.0, camera_height=900.0)

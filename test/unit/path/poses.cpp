@@ -132,6 +132,32 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
             "waypoint 2: it is less than 1 mm from the waypoint before it in plan view; leave it out");
 }
 
+/// As many waypoints along x, these far apart.
+Waypoints apart(const std::vector<double>& steps_m) {
+  Waypoints waypoints{{0, 0, 0}};
+  for (const double step_m : steps_m)
+    waypoints.emplace_back(waypoints.back() + Eigen::Vector3d(step_m, 0, 0));
+  return waypoints;
+}
+
+TEST(CrowdedText, TellsOfWaypointsALittleFartherApartThanASpacing) {
+  const Waypoints eleven = apart({1.2, 1.204, 1.21, 1.22, 1.204, 1.206, 1.21, 1.211, 1.217, 1.217});
+  ASSERT_EQ(posesAlong(eleven, {1.2, 0.0}).size(), 19U);
+  EXPECT_EQ(
+      crowdedText(eleven, {1.2, 0.0}),
+      "8 of 19 poses lie less than a tenth of the spacing behind the one before, since waypoints are 1.2 to "
+      "1.22 m apart: a spacing of 1.3 m takes one a waypoint");
+  EXPECT_EQ(posesAlong(eleven, {1.3, 0.0}).size(), 10U);
+  EXPECT_EQ(crowdedText(eleven, {1.3, 0.0}), "");
+  EXPECT_EQ(crowdedText(eleven, {1.0, 0.0}), "") << "a fifth of a spacing is no crowd";
+  EXPECT_EQ(
+      crowdedText(apart({4.01, 4.01, 4.01}), {2.0, 0.0}),
+      "2 of 9 poses lie less than a tenth of the spacing behind the one before, since waypoints are 4.01 m "
+      "apart");
+  EXPECT_EQ(crowdedText(apart({1.0, 1.0, 1.0}), {1.0, 0.0}), "");
+  EXPECT_EQ(crowdedText(apart({1.01}), {1.0, 0.0}), "") << "no pose follows there";
+}
+
 TEST(WithoutStandstills, KeepsTheFirstOfEachPlaceAndLosesNoWayOfWhatCreeps) {
   const Waypoints still = {{0, 0, 0}, {0, 0, 5}, {0, 0.0009, 0}, {0, 0.0018, 0}, {1, 0, 0}, {1, 0, 0}};
   EXPECT_EQ(withoutStandstills(still), (Waypoints{{0, 0, 0}, {0, 0.0018, 0}, {1, 0, 0}}));
