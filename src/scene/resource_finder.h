@@ -76,7 +76,8 @@ class ResourceFinder {
 std::string placesTried(const Found& found);
 
 /// Ends the error of a model or mesh that is not there: what draws a world without it.
-constexpr const char* kDrawTheRest = "; --missing warn (of a node, missing: warn) draws the rest";
+constexpr const char* kDrawTheRest =
+    "; --missing warn (of launch files missing:=warn, of nodes missing: warn) draws the rest";
 
 /// Where versions of Gazebo classic keep their models and media: the folders gazebo-VERSION in `share`,
 /// newest first.

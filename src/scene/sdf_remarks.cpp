@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "scene/sdf_xml.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::scene {
 namespace {
@@ -60,20 +61,28 @@ class Remarks {
 
   /// Worlds are made with zeros.
   void onPlace(const XMLElement& element) {
-    bool is_anywhere = false;
-    std::string place;
-    for (const char* part : {"latitude_deg", "longitude_deg", "elevation", "heading_deg"}) {
-      const std::string text = childText(element, part);
-      double number = 0.0;
-      std::istringstream(text) >> number;
-      is_anywhere = is_anywhere || (number != 0.0 && std::string(part) != "elevation");
-      if (!text.empty()) place += std::string(place.empty() ? " " : ", ") + part + " " + text;
+    const double latitude = numberIn(element, "latitude_deg"), longitude = numberIn(element, "longitude_deg"),
+                 heading = numberIn(element, "heading_deg");
+    if (latitude != 0.0 || longitude != 0.0) {
+      const auto site = [&, elevation = numberIn(element, "elevation")](const std::string& comma) {
+        return textOf(latitude) + comma + textOf(longitude) + comma + textOf(elevation);
+      };
+      builder_.warn("worlds have <spherical_coordinates>, which are not taken: the site is a parameter",
+                    placeOf(file_, element) + ": --site " + site(",") + ", of launch files site:=\"[" +
+                        site(", ") + "]\"");
     }
-    if (is_anywhere)
+    if (heading != 0.0)
       builder_.warn(
-          "worlds have <spherical_coordinates>, which are not taken: the site is a parameter (site of nodes "
-          "and launch files, --site of tools), and x points east",
-          placeOf(file_, element) + ":" + place);
+          "worlds have <heading_deg>, which is not taken: here x points east, so that the sun stands on the "
+          "wrong side by as much, unless the poses of models and path are turned",
+          placeOf(file_, element) + ": " + textOf(heading));
+  }
+
+  /// 0 where there is none.
+  static double numberIn(const XMLElement& element, const char* part) {
+    double number = 0.0;
+    std::istringstream(childText(element, part)) >> number;
+    return number;
   }
 
   const std::string& file_;

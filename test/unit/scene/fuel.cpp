@@ -46,7 +46,7 @@ TEST_F(Fuel, WhatIsNotInTheCacheIsNamedWithThatNothingIsFetched) {
   EXPECT_EQ(errorOf(world, cached()),
             world + ":1: there is no " + address + "; looked for in Fuel's cache in " + pathOf("fuel") +
                 "; nothing is fetched from the network, `gz fuel download -u ADDRESS` does that"
-                "; --missing warn (of a node, missing: warn) draws the rest");
+                "; --missing warn (of launch files missing:=warn, of nodes missing: warn) draws the rest");
   EXPECT_NE(errorOf(world).find("Fuel's cache, which has no folder; nothing is fetched"), std::string::npos);
   const std::string mesh = worldOf("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>" +
                                    address + "/files/m.obj</uri></mesh></geometry></visual></link></model>");

@@ -44,14 +44,18 @@ TEST_F(SdfLeftOut, TheSiteOfAWorldIsNamedUnlessItIsNowhere) {
   };
   EXPECT_TRUE(at("0", "0.0", "0").empty());
   EXPECT_TRUE(boxWith("<spherical_coordinates/>").warnings.empty());
-  const std::vector<std::string> named = at("-33.7", "150.7", "90");
-  ASSERT_EQ(named.size(), 1u);
-  EXPECT_EQ(named[0],
-            "1 worlds have <spherical_coordinates>, which are not taken: the site is a parameter (site of "
-            "nodes and "
-            "launch files, --site of tools), and x points east: " +
-                pathOf("test.world") +
-                ":2: latitude_deg -33.7, longitude_deg 150.7, elevation 12, heading_deg 90");
+  const std::vector<std::string> named = at("-33.7244456", "150.67903", "90");
+  ASSERT_EQ(named.size(), 2u);
+  EXPECT_EQ(
+      named[0],
+      "1 worlds have <heading_deg>, which is not taken: here x points east, so that the sun stands on the "
+      "wrong side by as much, unless the poses of models and path are turned: " +
+          pathOf("test.world") + ":2: 90");
+  EXPECT_EQ(
+      named[1],
+      "1 worlds have <spherical_coordinates>, which are not taken: the site is a parameter: " +
+          pathOf("test.world") +
+          ":2: --site -33.7244456,150.67903,12, of launch files site:=\"[-33.7244456, 150.67903, 12]\"");
   for (const auto& one : {at("1", "0", "0"), at("0", "-1", "0"), at("0", "0", "1e-3")})
     EXPECT_EQ(one.size(), 1u);
 }

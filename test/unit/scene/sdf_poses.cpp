@@ -178,7 +178,8 @@ TEST_F(Sdf, AMissingIncludeNamesTheFileAndThePlacesOnce) {
   EXPECT_NE(error.find("(100 in all); looked for in " + pathOf("").substr(0, pathOf("").size() - 1)),
             std::string::npos)
       << error;
-  EXPECT_NE(error.find(" and /some/folder; --missing warn (of a node, missing: warn) draws the rest"),
+  EXPECT_NE(error.find(" and /some/folder; --missing warn (of launch files missing:=warn, of nodes missing: "
+                       "warn) draws the rest"),
             std::string::npos)
       << error;
   EXPECT_LT(error.size(), 500u);
@@ -241,7 +242,8 @@ TEST_F(Sdf, AMissingMeshNamesTheVisualAndThePlaces) {
                  pathOf("house/house.dae")),
       0u)
       << error;
-  const std::string end = " in all); --missing warn (of a node, missing: warn) draws the rest";
+  const std::string end =
+      " in all); --missing warn (of launch files missing:=warn, of nodes missing: warn) draws the rest";
   EXPECT_EQ(error.find(end) + end.size(), error.size()) << error;
   EXPECT_EQ(std::count(error.begin(), error.end(), ','), 2) << error;  // of three places, and of this end
 }
