@@ -47,7 +47,6 @@ std::string metresOf(double length_m) {
   return std::abs(length_m) < 100.0 ? sunlit::textOf(length_m, 3) : sunlit::textOf(std::round(length_m));
 }
 
-/// With its extents: one in millimetres is seen to be.
 std::string sizeOf(const scene::Shape& shape) {
   const Eigen::AlignedBox3f box = boxAround(shape);
   std::string extents;
@@ -110,6 +109,10 @@ scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
 light::World loadWorld(const WorldOptions& options, const std::string& cache_folder,
                        const std::optional<scene::Robot>& robot, const Reports& reports) {
   return inMemory(loading(options), [&] { return flatWorld(options, cache_folder, robot, reports); });
+}
+
+std::string sizeOf(const light::World& world) {
+  return sizeOf(*world.geometry->shape);
 }
 
 Eigen::AlignedBox3d boundsOf(const light::World& world) {

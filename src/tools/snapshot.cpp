@@ -35,8 +35,8 @@ void takeSnapshot(const SnapshotOptions& options) {
     std::fprintf(stderr, "warning: the picture is black all over: %s\n", image::kWhyBlack);
   const std::string eclipse =
       options.hour ? textOfEclipse(bodiesOf(options.place, *options.hour)) : std::string();
-  std::printf("%s: %zu triangles, EV100 %.2f, %.3g lx on level ground%s\n", options.output.c_str(),
-              studio.world().geometry->triangles.size(), developed.ev100,
+  std::printf("%s: %s, EV100 %.2f, %.3g lx on level ground%s\n", options.output.c_str(),
+              studio::sizeOf(studio.world()).c_str(), developed.ev100,
               static_cast<double>(day.groundIlluminance().luminance()), eclipse.c_str());
 }
 

@@ -330,11 +330,12 @@ class CommandLines(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(len({picture.read_bytes() for picture in pictures}), 1)
 
-    def test_a_picture_of_nothing_says_where_the_world_is(self):
+    def test_a_picture_of_nothing_says_where_the_world_is_and_how_large(self):
         with tempfile.TemporaryDirectory() as folder:
             done = run("snapshot", "--world", WORLD, "--bounced", "off", "--size", "32x24", "--pose", "5000,0,1",
                        "--sun", "285,40", "--out", str(pathlib.Path(folder, "nothing.png")))
         self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stdout, r"nothing.png: \d+ triangles in 400 x 400 x [0-9.]+ m, EV100")
         self.assertIn("warning: nothing of the world is in view, which reaches from ", done.stderr)
 
     def test_hours_of_a_time_zone_that_nobody_gave_are_told_of_where_noon_is_elsewhere(self):

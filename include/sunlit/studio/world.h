@@ -83,6 +83,9 @@ scene::Scene loadScene(const WorldOptions& options, const Reports& reports);
 light::World loadWorld(const WorldOptions& options, const std::string& cache_folder,
                        const std::optional<scene::Robot>& robot, const Reports& reports);
 
+/// "9 triangles in 90 x 60 x 2.5 m", of all that stands still: one in millimetres is seen to be.
+std::string sizeOf(const light::World& world);
+
 /// Around all that stands still, m in `map`; empty where nothing does.
 Eigen::AlignedBox3d boundsOf(const light::World& world);
 
