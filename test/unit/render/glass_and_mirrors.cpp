@@ -498,7 +498,8 @@ light::World baked(scene::Scene scene) {
 double meanOf(const image::LinearImage& picture) {
   double sum = 0.0;
   for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) sum += static_cast<double>(at(picture, x, y)[1]);
+    for (int x = 0; x < picture.width; ++x)
+      sum += static_cast<double>(LinearRgb(at(picture, x, y)).luminance());
   return sum / (picture.width * picture.height);
 }
 
@@ -517,8 +518,9 @@ TEST(BakedLight, PassesGlass) {
   }
   // Of even light over a half sphere 0.844 of luminance, by the tint 0.934 of it, more of that which comes
   // straight; and the pane sends part of the room's own light back, which the opening did not.
+  // The bake knows no colour of glass: of green alone the ratio is 1.4 % less than traced.
   const double ratio = baked_light[1] / baked_light[0], truth = traced_light[1] / traced_light[0];
-  EXPECT_NEAR(ratio, truth, 0.01);
+  EXPECT_NEAR(ratio, truth, 0.004);
 }
 
 TEST(GlazedRoom, AgreesWithPathTracedLight) {
