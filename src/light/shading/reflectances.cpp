@@ -148,10 +148,11 @@ Reflectances::Dry Reflectances::dry(const ShownPaint& shows, std::uint32_t trian
     albedo += barycentric[k] * geometry_.colors[geometry_.triangles[triangle][static_cast<std::size_t>(k)]];
   albedo *= material.base_color.value * base.head<3>();
   albedo *= 1.0f - material.glass;  // what goes straight through is not scattered
-  return {{albedo.max(0.0f).min(1.0f),
-           std::max(material.roughness * data(shows.roughness), scene::Material::kSmoothest),
-           material.metalness * data(shows.metalness)},
-          base[3]};
+  return {
+      {albedo.max(0.0f).min(1.0f),
+       std::max(material.roughness * data(shows.roughness), scene::Material::kSmoothest),
+       material.metalness * data(shows.metalness), material.dielectric.value, material.dielectric_grazing},
+      base[3]};
 }
 
 Paint Reflectances::weathered(const Paint& paint, const TriangleSide& side,
@@ -168,7 +169,7 @@ Paint Reflectances::weathered(const Paint& paint, const TriangleSide& side,
   geometry_.weathering->apply(
       {position, face, kCell_m},
       geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])], &look);
-  return {look.albedo, look.roughness, look.metalness};
+  return {look.albedo, look.roughness, look.metalness, paint.dielectric, paint.dielectric_grazing};
 }
 
 Eigen::Vector2f Reflectances::coordinates(std::uint32_t triangle, const Eigen::Vector3f& barycentric,
@@ -216,10 +217,16 @@ Eigen::Array3f Reflectances::emission(std::uint32_t triangle, const Part& part) 
   return material.emission.value * sum / count;
 }
 
+float Paint::normalReflectance() const {
+  return LinearRgb(dielectric + (albedo - dielectric) * metalness).luminance();
+}
+
 Paint& Paint::operator+=(const Paint& other) {
   albedo += other.albedo;
   roughness += other.roughness;
   metalness += other.metalness;
+  dielectric += other.dielectric;
+  dielectric_grazing += other.dielectric_grazing;
   return *this;
 }
 
@@ -227,6 +234,8 @@ Paint& Paint::operator*=(float factor) {
   albedo *= factor;
   roughness *= factor;
   metalness *= factor;
+  dielectric *= factor;
+  dielectric_grazing *= factor;
   return *this;
 }
 
@@ -237,6 +246,8 @@ Reflectance reflectance(const Paint& paint, float n_v) {
   reflection.albedo = paint.albedo;
   reflection.roughness = paint.roughness;
   reflection.metalness = paint.metalness;
+  reflection.dielectric = paint.dielectric;
+  reflection.dielectric_grazing = paint.dielectric_grazing;
   const AmbientReflectance ambient = ambientReflectance(reflection);
   return {ambient.diffuse * kPiFloat, ambient.specular};
 }

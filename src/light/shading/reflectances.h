@@ -14,7 +14,13 @@ namespace sunlit::light {
 struct Paint {
   Eigen::Array3f albedo = Eigen::Array3f::Zero();
   float roughness = 0.0f, metalness = 0.0f;
+  /// As of scene::Material: what it reflects at normal incidence where it is no metal, and at grazing.
+  Eigen::Array3f dielectric = Eigen::Array3f::Zero();
+  float dielectric_grazing = 0.0f;
 
+  /// At normal incidence, of luminance; and at grazing.
+  float normalReflectance() const;
+  float grazingReflectance() const { return dielectric_grazing + (1.0f - dielectric_grazing) * metalness; }
   Paint& operator+=(const Paint& other);
   Paint& operator*=(float factor);
 };

@@ -24,6 +24,8 @@ SceneSamples twoWalls(std::size_t others) {
   for (Paint& paint : samples.paints) {
     paint.albedo.setConstant(0.9f);
     paint.roughness = 1.0f;
+    paint.dielectric.setConstant(0.04f);
+    paint.dielectric_grazing = 1.0f;
   }
   return samples;
 }

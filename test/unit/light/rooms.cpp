@@ -72,6 +72,18 @@ TEST(Rooms, AreLitByThePatchOfTheSunFromWhereItLies) {
   }
 }
 
+TEST(Rooms, OfMattWallsThatMirrorNothingKeepTheirLight) {
+  scene::Scene scene = roomWithAHole(0.8f);
+  scene.materials[0].dielectric = LinearRgb(0.0f, 0.0f, 0.0f);
+  scene.materials[0].dielectric_grazing = 0.0f;
+  const World world = baked(std::move(scene));
+  const std::vector<Looked> places = aroundTheRoom();
+  const sky::Daylight day = uniformDay(1000.0f);
+  const Errors found = errors(fast(world, places, day), traced(world, places, day, 20000, 64));
+  // Measured 3.5 %; 11 % where they were taken for paint that mirrors 4 % at normal incidence.
+  EXPECT_LT(std::abs(found.bias), 0.05);
+}
+
 TEST(Rooms, OfWhiteWallsKeepTheSunsLight) {
   const World world = baked(roomWithAHole(0.9f));
   const std::vector<Looked> places = aroundTheRoom();

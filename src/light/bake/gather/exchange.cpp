@@ -65,7 +65,10 @@ Exchange::Exchange(const SceneSamples& samples, const SkyPatches& patches, const
     const Receiver& receiver = samples.receivers[i];
     const bool sheet = receiver.thin || samples.other_side[i].sample != LightMesh::kNone;
     mirrors_[i] = !sheet && !receiver.coarse && mirrorsRays(samples.paints[i]) ? 1 : 0;
-    ground_[i] = receiver.normal.z() > kLevel && !sheet && samples.paints[i].metalness < 0.5f ? 1 : 0;
+    const Paint& paint = samples.paints[i];
+    // GroundMirror knows one dielectric, and what mirrors nothing is none.
+    const bool mirrors = paint.metalness < 0.5f && paint.dielectric_grazing > 0.5f;
+    ground_[i] = receiver.normal.z() > kLevel && !sheet && mirrors ? 1 : 0;
   }
   for (std::size_t direction = 0; direction < scattered_down_.size(); ++direction)
     scattered_down_[direction] = scatteredDown(patches.coarseRays()[SkyPatches::kAbove + direction].towards);

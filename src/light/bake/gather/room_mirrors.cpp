@@ -17,7 +17,8 @@ namespace sunlit::light {
 bool mirrorsRays(const Paint& paint) {
   constexpr float kColour = 0.1f;  // that a metal's mirror may lose
   const float most = paint.albedo.maxCoeff(), least = paint.albedo.minCoeff();
-  return paint.roughness < kPolished && paint.metalness * (most - least) <= kColour * most;
+  return paint.roughness < kPolished && paint.grazingReflectance() > 0.0f &&
+         paint.metalness * (most - least) <= kColour * most;
 }
 
 MirroredRay mirroredRay(const Geometry& geometry, const Paint& paint, const LaneHit& hit,
@@ -37,8 +38,9 @@ MirroredRay mirroredRay(const Geometry& geometry, const Paint& paint, const Lane
   MirroredRay ray{position + rayClearance_m(position, 0.0f) * normal,
                   MirrorFrame(normal, -hit.towards).inMap(to).normalized(), 0.0f};
   if (!(to.z() > 1e-4f)) return ray;  // below the surface: light that facets throw on others is not followed
-  const float f0 = normalReflectance(LinearRgb(paint.albedo).luminance(), paint.metalness);
-  ray.share = std::min((f0 + (1.0f - f0) * schlick(v_h)) * facets.shadowing(to.z(), n_v), kMostReflected);
+  const float f0 = paint.normalReflectance();
+  const float fresnel = f0 + (paint.grazingReflectance() - f0) * schlick(v_h);
+  ray.share = std::min(fresnel * facets.shadowing(to.z(), n_v), kMostReflected);
   return ray;
 }
 

@@ -48,7 +48,8 @@ Paint paintOfGlass(const scene::Material& material) {
     stopped += 1.0f - LinearRgb(straightThrough(sheet)).luminance();
   }
   // Smooth metal reflects its colour, all of it.
-  return {(reflected / std::max(stopped, 1e-6f)).min(1.0f), scene::Material::kSmoothest, 1.0f};
+  return {(reflected / std::max(stopped, 1e-6f)).min(1.0f), scene::Material::kSmoothest, 1.0f,
+          material.dielectric.value, material.dielectric_grazing};
 }
 
 /// Of each material that is glass.
