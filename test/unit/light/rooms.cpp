@@ -368,8 +368,8 @@ TEST(Rooms, StreetsAreLitByTheSideThatTheSunShinesOn) {
       shaded.push_back({{6.0f, y, z}, -Eigen::Vector3f::UnitX(), {-0.8f, 0.5f, 0.1f}});
   }
   // From the east, over the roof of that side: it meets the upper part of the other wall alone. Measured 6.7
-  // %; 7.6 by patches. At the foot of that wall it is 27 % too much, elsewhere 3 % too little to 3 % too
-  // much: samples of the wall send as from all around them what the sun lights of their upper halves.
+  // %; 7.6 by patches alone. At the foot of that wall it is 27 % too much, elsewhere 3 % too little to 3 %
+  // too much: the floor is no room, and the sky's patches about the sun light more of the wall than it does.
   const sky::Daylight day = onlySun(90.0, 48.0);
   EXPECT_LT(errors(fast(world, shaded, day), traced(world, shaded, day, 60000)).mean, 0.072);
 }
