@@ -17,8 +17,8 @@ bool blendsEvenly(const scene::Scene& scene, const scene::Material& material);
 
 /// Sorts a scene's triangles into opaque and masked ones, and answers for the latter by their texture's full
 /// resolution, bilinearly filtered as in the image. What blends is masked too: solid at a share of its points
-/// that is its alpha there, chosen by a hash of the point, so that of n rays a share of alpha ± √(alpha (1 −
-/// alpha) / n) is stopped, always the same.
+/// that is its alpha there, chosen by a hash of triangle and point, so that of n rays a share of alpha ±
+/// √(alpha (1 − alpha) / n) is stopped, always the same.
 class Cutouts {
   struct Triangle;
   struct Mask;
@@ -48,14 +48,14 @@ class Cutouts {
           mask_(cutouts.masks_[static_cast<std::size_t>(triangle_.mask)]),
           number_(masked_triangle) {}
     bool solid(float u, float v) const;
+    /// The same of `count` points: 1 or 0.
+    void solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const;
     /// Of what blends: the share of light that stops there, which meets it by this cosine to its normal;
     /// glass asks for that.
     float share(float u, float v, float cosine) const;
     /// Whether such a share means this point: up to a hash of it and of the triangle, for of sheets that
     /// cover one another each stops rays by itself.
     bool isThere(float share, float u, float v) const;
-    /// The same of `count` points: 1 or 0.
-    void solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const;
 
     /// Whether it lets a share of light through, rather than having holes.
     bool blends() const { return mask_.blended != Mask::kCutOut; }
