@@ -48,8 +48,8 @@ struct MoonPosition {
 };
 
 /// `moon` and `sun` of one instant. Refraction is refraction(), as for the sun. Diurnal aberration, 0.3″, is
-/// left out. Phase angle and bright limb: Meeus, eq. 48.1, 48.3 and 48.5, but with both bodies as the
-/// observer sees them.
+/// left out. Lit share and bright limb: Meeus, eq. 48.1 and 48.5; the phase angle, his 48.3, is that
+/// between vectors; all of both bodies as the observer sees them.
 MoonPosition moonPosition(const LunarCoordinates& moon, const SolarCoordinates& sun, const Site& site,
                           const Air& air);
 

@@ -76,7 +76,7 @@ struct TransportData;
 /// Immutable; may be read by many threads.
 class Transport {
  public:
-  /// Traces the scene, which takes seconds to a minute. Parallel; the same bits for any number of threads.
+  /// Traces the scene, which takes seconds to minutes. Parallel; the same bits for any number of threads.
   /// Throws std::invalid_argument for options out of range, std::runtime_error if the ray library fails or
   /// the scene takes more than 2^24 samples.
   static std::shared_ptr<const Transport> bake(std::shared_ptr<const Geometry> geometry,

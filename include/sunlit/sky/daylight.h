@@ -96,7 +96,7 @@ class Daylight {
   /// Stars above the horizon, brightest first, as they shine above any fog; their light is not in
   /// skyLuminance().
   const std::vector<PointLight>& stars() const;
-  /// The air on the first `distance_m` ≥ 0 metres of the way `towards`, seen from the observer: within 5 % of
+  /// The air on the first `distance_m` ≥ 0 metres of the way `towards`, seen from the observer: within 4 % of
   /// small steps through the same air; far away at the horizon it becomes skyLuminance(). No surface shades
   /// it. Below the observer's sea level the air goes on as there. Fog below the eye is as bright as fog at
   /// the horizon. A table look-up of some 40 ns.

@@ -22,14 +22,14 @@ double uncoveredArea(const Overlap& discs);
 double uncoveredSunlight(const Overlap& discs);
 
 /// The sun's disc and the moon's as they are seen from the scene, without refraction. What is right of the
-/// moon's place, 3″ rms, makes contacts right to some 10 s; mountains at its rim are left out.
+/// moon's place, 3″ rms, makes contacts right to some 20 s; mountains at its rim are left out.
 Overlap sunBehindMoon(const SunInSky& sun, const MoonInSky& moon);
 
 /// Share, 0 … 1, of the sun's light that still falls straight on the moon, in the mean over its disc; 1
 /// outside of the penumbra, 0 in the umbra. From the moon the Earth is a disc of 1.01 times its equatorial
 /// radius, since its air is dark down there (Danjon 1951: 1 + 1/85 − 1/594, of a mean flattened Earth), as in
 /// Espenak & Meeus, Five Millennium Canon of Lunar Eclipses (2009, NASA/TP-2009-214172). Its centre is taken
-/// to be straight below the scene, up to 21 km beside where it is: contacts are right to 1 min.
+/// to be straight below the scene, up to 21 km beside where it is: contacts are right to 90 s.
 double sunlightOnMoon(const SunInSky& sun, const MoonInSky& moon);
 
 /// Of the light of sky and ground under a covered sun what comes from air outside of the moon's shadow. Three
