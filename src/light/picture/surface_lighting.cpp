@@ -5,6 +5,7 @@
 
 #include "light/geometry/ray_start.h"
 #include "light/patches/least_disc.h"
+#include "light/picture/mirror/shining_list.h"
 #include "light/shading/direct_parts.h"
 #include "light/shading/shading.h"
 #include "light/shading/surface_reflection.h"
@@ -50,7 +51,10 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
             {surfaces_, table_}),
       sun_glints_(glintsOf(light.day.sun(), subject, light)),
       moon_glints_(glintsOf(light.day.moon(), subject, light)),
-      lamps_({lampsOf(light), bouncedOf(light)}, {surfaces_, scene_, subject.visibility}),
+      lamps_({lampsOf(light), bouncedOf(light)},
+             {surfaces_, scene_, subject.visibility,
+              mirrorsByRays(subject.visibility.fixedGeometry(),
+                            subject.in_mirrors ? Onlooker::kMirrors : Onlooker::kCamera)}),
       glass_(subject.visibility),
       broken_cloud_(light.day.hasBrokenCloud()) {}
 

@@ -5,13 +5,18 @@
 
 namespace sunlit::light {
 
-/// Surfaces so smooth mirror by rays alone; towards the rougher limit the lobe of MirrorSky and of the nodes
-/// takes over, evenly, so that no edge appears.
-constexpr float kMirrorsByRays = 0.42f, kMirrorsByLobe = 0.48f;
+struct MirrorsByRays {
+  /// Surfaces at most so rough mirror by rays alone; from `none` on the lobe of MirrorSky and of the nodes
+  /// does, and takes over evenly in between, so that no edge appears.
+  float all, none;
 
-/// Share of its surroundings that a surface, no thin sheet, mirrors by rays.
-inline float mirroredByRays(float roughness) {
-  return std::clamp((kMirrorsByLobe - roughness) / (kMirrorsByLobe - kMirrorsByRays), 0.0f, 1.0f);
-}
+  /// Share of its surroundings that a surface, no thin sheet, mirrors by rays.
+  float share(float roughness) const { return std::clamp((none - roughness) / (none - all), 0.0f, 1.0f); }
+};
+
+constexpr MirrorsByRays kSmoothOnes{0.42f, 0.48f};
+/// Of those that a camera sees where something shines by itself: lobes know the mean of all surfaces above
+/// and of all below, and a panel is hundreds of times as bright as that.
+constexpr MirrorsByRays kBeforePanels{0.75f, 0.85f};
 
 }  // namespace sunlit::light

@@ -153,7 +153,7 @@ class Bounces {
     if (glass_.any()) lumens *= glass_.through({origin, direction, 0.0f, hits_[i].distance});
     const Reflection& reflection = vertex.reflection;
     const AmbientReflectance by = ambientReflectance(reflection);
-    const float mirrored = reflection.transmission > 0.0f ? 0.0f : mirroredByRays(reflection.roughness);
+    const float mirrored = reflection.transmission > 0.0f ? 0.0f : kSmoothOnes.share(reflection.roughness);
     const float distance_m = hits_[i].distance + lamp_.radius_m;
     const float cosine = std::max(std::abs(vertex.geometric_normal.dot(direction)), 0.1f);
     const float area_m2 = each_sr_ * distance_m * distance_m / cosine;

@@ -268,7 +268,7 @@ std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile,
   thread_local LitRows rows;
   thread_local LitRows::Reflected reflected;
   thread_local std::vector<float> shares, least_lx;
-  rows.set(tile, picture_.scene);
+  rows.set(tile, picture_.scene, picture_.by_rays);
   const std::vector<Place> places = placesOf(tile);
   const std::size_t stride = rows.stride();
   shares.resize(lamps.size() * stride);

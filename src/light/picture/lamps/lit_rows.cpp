@@ -5,7 +5,6 @@
 
 #include "light/shading/direct_parts.h"
 #include "light/shading/ggx.h"
-#include "light/shading/mirrored_by_rays.h"
 #include "light/shading/schlick.h"
 #include "light/shading/surface_reflection.h"
 #include "sunlit/quantity/vector_clones.h"
@@ -156,7 +155,7 @@ std::size_t reflectAll(const Source& lamp, const Rows& rows, const LitRows::Arri
 
 }  // namespace
 
-void LitRows::set(const Tile& tile, const scene::Scene& scene) {
+void LitRows::set(const Tile& tile, const scene::Scene& scene, MirrorsByRays by_rays) {
   count_ = tile.surfaces.size();
   stride_ = (count_ + kBlock - 1) / kBlock * kBlock;
   rows_.assign(kRowCount * stride_, 0.0f);
@@ -181,7 +180,7 @@ void LitRows::set(const Tile& tile, const scene::Scene& scene) {
     rows_[kNormalEye * stride_ + i] = reflection.normal.dot(reflection.to_eye);
     rows_[kAlpha * stride_ + i] = reflection.roughness * reflection.roughness;
     rows_[kByLobe * stride_ + i] =
-        reflection.transmission > 0.0f ? 1.0f : 1.0f - mirroredByRays(reflection.roughness);
+        reflection.transmission > 0.0f ? 1.0f : 1.0f - by_rays.share(reflection.roughness);
     rows_[kOpaque * stride_ + i] = reflection.transmission > 0.0f ? 0.0f : 1.0f;
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/lamps/lamp_beam.h"
+#include "light/shading/mirrored_by_rays.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/scene/scene.h"
 
@@ -19,7 +20,7 @@ class LitRows {
   static constexpr std::size_t kBlock = 16;
 
   /// Takes what it needs of all surfaces of `tile`.
-  void set(const Tile& tile, const scene::Scene& scene);
+  void set(const Tile& tile, const scene::Scene& scene, MirrorsByRays by_rays = kSmoothOnes);
 
   std::size_t count() const { return count_; }
   /// count() rounded up to kBlock.

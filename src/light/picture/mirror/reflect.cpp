@@ -13,7 +13,6 @@
 #include "light/picture/mirror/shining_in_lobes.h"
 #include "light/picture/mirror/shining_list.h"
 #include "light/shading/glass_sheets.h"
-#include "light/shading/mirrored_by_rays.h"
 #include "light/shading/shading.h"
 #include "light/shading/vertex.h"
 
@@ -30,11 +29,11 @@ bool canMirror(const scene::Material& material) {
 }
 
 /// Whether any surface may be smooth enough.
-bool anyMirrors(const MirroredWorld& world) {
+bool anyMirrors(const MirroredWorld& world, MirrorsByRays by_rays) {
   if (world.visibility.fixedGeometry().weathering) return true;
   const std::vector<scene::Material>& materials = world.scene.materials;
-  return std::any_of(materials.begin(), materials.end(), [](const scene::Material& material) {
-    return canMirror(material) && (material.roughness < kMirrorsByLobe || material.roughness_map.given());
+  return std::any_of(materials.begin(), materials.end(), [&](const scene::Material& material) {
+    return canMirror(material) && (material.roughness < by_rays.none || material.roughness_map.given());
   });
 }
 
@@ -54,6 +53,7 @@ class TileMirror {
         shining_(shining),
         pixels_(lobePixels(surfaces)),
         onlooker_(onlooker),
+        by_rays_(mirrorsByRays(world.visibility.fixedGeometry(), onlooker)),
         scene_(world.scene),
         visibility_(world.visibility),
         vertices_(visibility_.fixedGeometry(), visibility_.movingGeometry()),
@@ -66,11 +66,11 @@ class TileMirror {
     cast.clear();
     for (std::uint32_t i = 0; i < tile.surfaces.size(); ++i) {
       const Surface& surface = tile.surfaces[i];
-      if (!(surface.roughness < kMirrorsByLobe)) continue;
+      if (!(surface.roughness < by_rays_.none)) continue;
       if (!canMirror(scene_.materials[static_cast<std::size_t>(surface.material)])) continue;
       Reflections::Mirroring mirroring;
       mirroring.surface = i;
-      mirroring.by_rays = mirroredByRays(surface.roughness);
+      mirroring.by_rays = by_rays_.share(surface.roughness);
       mirroring.rays = lobeRays(surface, pixels_);
       all->push_back(mirroring);
       addRays(tile, mirroring, static_cast<std::uint32_t>(all->size() - 1), &cast);
@@ -279,6 +279,7 @@ class TileMirror {
   const ShiningList& shining_;
   LobePixels pixels_;
   Onlooker onlooker_;
+  MirrorsByRays by_rays_;
   const scene::Scene& scene_;
   const Visibility& visibility_;
   SceneVertices vertices_;
@@ -309,7 +310,7 @@ void layOutLike(const Surfaces& surfaces, Surfaces* seen) {
 }  // namespace
 
 Reflections reflect(const Surfaces& surfaces, Onlooker onlooker, const MirroredWorld& world, Surfaces* seen) {
-  if (!anyMirrors(world)) return {};
+  if (!anyMirrors(world, mirrorsByRays(world.visibility.fixedGeometry(), onlooker))) return {};
   Reflections made;
   made.tiles.resize(surfaces.tiles.size());
   layOutLike(surfaces, seen);

@@ -10,6 +10,10 @@
 namespace sunlit::light {
 namespace {
 
+const scene::Material& materialOf(const Geometry& geometry, const scene::Chunk& chunk) {
+  return geometry.scene->materials[static_cast<std::size_t>(chunk.material)];
+}
+
 bool isListed(const scene::Material& material) {
   return glows(material, {}) && material.alpha_mode == scene::AlphaMode::kOpaque &&
          material.glass == 0.0f;  // which rays pass
@@ -19,7 +23,7 @@ bool isListed(const scene::Material& material) {
 
 ShiningList::ShiningList(const Geometry& geometry) : geometry_(geometry) {
   for (const scene::Chunk& chunk : geometry.chunks) {
-    const scene::Material& material = geometry.scene->materials[static_cast<std::size_t>(chunk.material)];
+    const scene::Material& material = materialOf(geometry, chunk);
     if (!isListed(material)) continue;
     const float luminance = LinearRgb(material.emission.value).luminance();
     for (std::uint32_t t = chunk.first; t < chunk.first + chunk.count; ++t) {
@@ -41,6 +45,12 @@ ShiningList::ShiningList(const Geometry& geometry) : geometry_(geometry) {
     std::sort(all_.begin(), all_.end(), isMore);
   }
   for (std::uint32_t n = 0; n < all_.size(); ++n) number_.emplace(all_[n].triangle, n);
+}
+
+bool ShiningList::anyIn(const Geometry& geometry) {
+  return std::any_of(geometry.chunks.begin(), geometry.chunks.end(), [&](const scene::Chunk& chunk) {
+    return chunk.count > 0 && isListed(materialOf(geometry, chunk));
+  });
 }
 
 // Never too little where it may be seen: what a surface lacks of it its rays have to meet by chance.

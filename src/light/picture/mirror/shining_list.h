@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "light/picture/mirror/reflections.h"
+#include "light/shading/mirrored_by_rays.h"
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/visibility.h"
 
@@ -19,6 +21,8 @@ class ShiningList {
   static constexpr std::size_t kMost = 4096;
 
   explicit ShiningList(const Geometry& geometry);
+  /// Whether a scene has any.
+  static bool anyIn(const Geometry& geometry);
   bool any() const { return !all_.empty(); }
 
   /// A point of one of them.
@@ -58,5 +62,10 @@ class ShiningList {
   std::vector<Shining> all_;
   std::unordered_map<std::uint32_t, std::uint32_t> number_;  ///< by triangle
 };
+
+/// Which surfaces of a scene mirror by rays.
+inline MirrorsByRays mirrorsByRays(const Geometry& geometry, Onlooker onlooker) {
+  return onlooker == Onlooker::kCamera && ShiningList::anyIn(geometry) ? kBeforePanels : kSmoothOnes;
+}
 
 }  // namespace sunlit::light
