@@ -46,8 +46,8 @@ struct Stage {
     view.supersampling = 2;
     const scene::Scene& scene = *world.geometry->scene;
     pyramids = std::make_unique<render::TexturePyramids>(scene);
-    maps =
-        std::make_unique<render::SurfaceMaps>(scene, static_cast<float>(light::TransportOptions().finest_m));
+    maps = std::make_unique<render::SurfaceMaps>(scene,
+                                                 static_cast<float>(light::finestOf({}, *world.geometry)));
     rasterizer = make(render::defaultRasterizer());
   }
   static std::shared_ptr<const scene::Scene> sceneOf(int which) {

@@ -40,6 +40,15 @@ void validate(const TransportOptions& options) {
   requireFields(options);
 }
 
+double finestOf(const TransportOptions& options, const Geometry& geometry) {
+  constexpr double kUsual_m = 0.25, kLeast_m = 0.02, kOfDiagonal = 1.0 / 64.0;
+  if (options.finest_m) return *options.finest_m;
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& position : geometry.positions) box.extend(position);
+  if (box.isEmpty()) return kUsual_m;
+  return std::clamp(kOfDiagonal * static_cast<double>(box.diagonal().norm()), kLeast_m, kUsual_m);
+}
+
 std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry> geometry,
                                                  const TransportOptions& options,
                                                  const BakeProgress& progress) {
@@ -52,7 +61,8 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   };
   const BakeRays rays(geometry);
   const std::vector<TriangleTraits> traits = triangleTraits(*geometry, rays);
-  const RefineLimits limits{static_cast<float>(options.finest_m), static_cast<std::size_t>(options.samples)};
+  const RefineLimits limits{static_cast<float>(finestOf(options, *geometry)),
+                            static_cast<std::size_t>(options.samples)};
   const BakeScene scene{*geometry, rays, traits};
   const std::vector<AreaLights::Piece> pieces = shiningPieces(*geometry, traits);
   const AreaLights shining(rays, pieces);

@@ -35,8 +35,9 @@ void addRows(const image::LinearImage& part, int first, float weight, image::Lin
 struct ReadyTextures {
   explicit ReadyTextures(const light::World& world)
       : pyramids(*world.geometry->scene),
-        maps(*world.geometry->scene,
-             world.transport ? static_cast<float>(light::TransportOptions().finest_m) : 0.0f) {
+        maps(*world.geometry->scene, world.transport ? static_cast<float>(light::finestOf(
+                                                           world.transport->options(), *world.geometry))
+                                                     : 0.0f) {
     scene::letGoOfTexels(*world.geometry->scene);
   }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,8 +21,8 @@ namespace sunlit::light {
 struct TransportOptions {
   int rays_per_patch = 3;
   int bounces = 3;
-  double finest_m = 0.25;
-  int samples = 800000;  ///< large triangles get what others leave
+  std::optional<double> finest_m;  ///< none: see finestOf()
+  int samples = 800000;            ///< large triangles get what others leave
 };
 
 inline std::vector<Field> fieldsOf(TransportOptions& options) {
@@ -31,12 +32,20 @@ inline std::vector<Field> fieldsOf(TransportOptions& options) {
            {1, 64},
            "from each sample to each of the 175 patches of the sky"},
           {"bounces", &options.bounces, "", {0, 8}, "of light from surface to surface"},
-          {"finest", &options.finest_m, "m", {0.02, 10}, "between samples where light changes fastest"},
+          {"finest",
+           NumberOrWord{&options.finest_m, "auto"},
+           "m",
+           {0.02, 10},
+           "between samples where light changes fastest; auto: 0.25, less in worlds below 16 m"},
           {"samples", &options.samples, "", {1000, 1e7}, "at most about so many"}};
 }
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const TransportOptions& options);
+
+/// TransportOptions::finest_m of a scene, m: without one 0.25, and a 64th of the diagonal of scenes that are
+/// smaller than 16 m, but 0.02 at least: on a table things stand as close as elsewhere on a street.
+double finestOf(const TransportOptions& options, const Geometry& geometry);
 
 /// How far a bake is: share done, 0 … 1, and seconds left by the time taken so far, NaN while too little is
 /// done to tell; of the bake of another process, too, while it is waited for. Never called by two threads at

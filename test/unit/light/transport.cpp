@@ -404,6 +404,21 @@ TEST(BakedLight, TellsTheTimeLeftOnceItCan) {
   EXPECT_GT(latest, 0.9);
 }
 
+TEST(BakedLight, OfSmallWorldsHasFinerSamples) {
+  const auto finest = [](float side) {
+    scene::Scene scene;
+    scene.materials = {paint(0.5f)};
+    addPatch(&scene, 0, {0.0f, 0.0f, 0.0f}, {side, 0.0f, 0.0f}, {0.0f, side, 0.0f});
+    return finestOf({}, *worldOf(std::move(scene)).geometry);
+  };
+  EXPECT_NEAR(finest(3.0f), 3.0 * std::sqrt(2.0) / 64.0, 1e-6);
+  EXPECT_EQ(finest(0.3f), 0.02);
+  EXPECT_EQ(finest(12.0f), 0.25);
+  TransportOptions options;
+  options.finest_m = 0.1;
+  EXPECT_EQ(finestOf(options, *worldOf(shed()).geometry), 0.1);
+}
+
 TEST(BakedLight, RefusesOptionsOutOfRange) {
   const World world = worldOf(shed());
   TransportOptions options;

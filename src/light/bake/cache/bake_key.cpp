@@ -108,7 +108,7 @@ image::ContentHash bakeKey(const Geometry& geometry, const TransportOptions& opt
   hash.add(kBakeVersion);
   hash.add(options.rays_per_patch);
   hash.add(options.bounces);
-  hash.add(options.finest_m);
+  hash.add(finestOf(options, geometry));
   hash.add(options.samples);
   addContents(geometry, &hash);
   addLamps(geometry.scene->lamps, &hash);
