@@ -269,6 +269,49 @@ TEST(ShiningSurfaces, DoNotLightThemselves) {
             0.01 * kPi * 1000.0);
 }
 
+/// Illuminance, lx, of level ground at `place` by a patch of 1 cd/m² that shines down: the sum over its
+/// parts.
+double byPatch(const Eigen::Vector3d& corner, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+               const Eigen::Vector3d& place) {
+  constexpr int kParts = 60;
+  const Eigen::Vector3d area = u.cross(v) / (kParts * kParts);
+  double sum = 0.0;
+  for (int i = 0; i < kParts; ++i) {
+    for (int k = 0; k < kParts; ++k) {
+      const Eigen::Vector3d way = corner + (i + 0.5) / kParts * u + (k + 0.5) / kParts * v - place;
+      const double before = -way.dot(area) / way.norm(), up = way.z() / way.norm();
+      sum += std::max(before, 0.0) * up / way.squaredNorm();
+    }
+  }
+  return sum;
+}
+
+TEST(ShiningSurfaces, AslantLightTheGroundBeforeThemAlone) {
+  // 1.2 m wide, 2 m up, 45 degrees aslant: the ground is lit from x = -2 m on, most below the panel.
+  const float half = 0.6f, aslant = half / std::sqrt(2.0f);
+  const Eigen::Vector3f corner(-aslant, -half, 2.0f - aslant), u(0.0f, 2.0f * half, 0.0f),
+      v(2.0f * aslant, 0.0f, 2.0f * aslant);
+  scene::Scene scene;
+  scene.materials = {paint(0.0f), paint(0.0f, 50.0f)};
+  scene.materials[1].double_sided = false;
+  addGround(&scene, 0, 30.0f);
+  addPatch(&scene, 1, corner, u, v);
+  const World world = baked(std::move(scene));
+  const auto exact = [&](const Eigen::Vector3f& place) {
+    return 50.0 * byPatch(corner.cast<double>(), u.cast<double>(), v.cast<double>(), place.cast<double>());
+  };
+  for (int i = 0; i < 80; ++i) {
+    const Eigen::Vector3f place(0.13f * static_cast<float>(i % 20) - 1.7f, 0.41f * static_cast<float>(i / 20),
+                                0.0f);
+    // Between nodes, where it bends. With cells up to 0.7 of the distance: 12 % too little.
+    EXPECT_NEAR(illuminance(world, place) / exact(place), 1.0, 0.04) << place.transpose();
+  }
+  for (const float x : {-2.6f, -3.5f, -5.0f}) {
+    for (const float y : {0.0f, 3.0f, 4.0f, 5.5f})
+      EXPECT_LT(illuminance(world, {x, y, 0.0f}), 1e-5 * exact(Eigen::Vector3f::Zero())) << x << " " << y;
+  }
+}
+
 TEST(ShiningSurfaces, WithHolesGiveAsMuchAsIsThere) {
   // Stripes, of which every second is cut out, or blends by half.
   const auto lit = [](scene::AlphaMode mode, std::uint8_t clear, std::uint8_t solid) {
