@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sunlit/quantity/columns.h"
+#include "sunlit/quantity/comma_list.h"
 #include "sunlit/quantity/field.h"
 #include "sunlit/quantity/range.h"
 #include "sunlit/quantity/utf8.h"
@@ -127,11 +128,9 @@ class CalibrationFile {
     const std::vector<std::string> names = lensModelNames();
     const auto name = std::find(names.begin(), names.end(), node.IsScalar() ? node.Scalar() : "");
     if (name == names.end()) {
-      std::string all;
-      for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
       refusingAt(node, [&] {
         refuse("distortion_model", node.IsScalar() ? '"' + node.Scalar() + '"' : "a list or a map",
-               "one of " + all);
+               "one of " + commaList(names));
       });
     }
     return static_cast<LensModel>(name - names.begin());

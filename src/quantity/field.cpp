@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sunlit/quantity/columns.h"
+#include "sunlit/quantity/comma_list.h"
 
 namespace sunlit {
 namespace {
@@ -19,12 +20,6 @@ template <typename... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
 using Value = Field::Value;
-
-std::string commaList(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
-  return line;
-}
 
 /// In messages texts stand in quotes.
 std::string quoted(const Value& value) {

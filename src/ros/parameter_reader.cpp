@@ -11,6 +11,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sunlit/quantity/comma_list.h"
+
 namespace sunlit::ros_interface {
 
 using XmlRpc::XmlRpcValue;
@@ -91,12 +93,6 @@ void expandHome(Field::Value* value) {
   if (auto* words = std::get_if<std::vector<std::string>>(value)) {
     for (std::string& word : *words) expandHome(&word);
   }
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
-  return line;
 }
 
 /// How many letters must be changed, added or left out to make `b` of `a` (Levenshtein 1966).
@@ -339,7 +335,7 @@ void ParameterReader::rejectUnknown() const {
   const auto unknown = firstUnknown(layer.tree, "", layer.asked);
   if (!unknown) return;
   const std::vector<std::string> known(layer.asked.begin(), layer.asked.end());
-  const std::string choice = known.empty() ? "nothing can differ here" : "known are " + joined(known);
+  const std::string choice = known.empty() ? "nothing can differ here" : "known are " + commaList(known);
   throw std::invalid_argument("parameter " + layer.name + "/" + *unknown + " is unknown" +
                               suggestion(*unknown, layer.asked) + "; " + choice);
 }

@@ -14,6 +14,7 @@
 #include "sunlit/image/cache_folder.h"
 #include "sunlit/light/lamp_surroundings.h"
 #include "sunlit/light/lamps.h"
+#include "sunlit/quantity/comma_list.h"
 #include "sunlit/quantity/memory.h"
 #include "sunlit/quantity/range.h"
 
@@ -140,11 +141,9 @@ void requireGroups(const light::World& world, const light::LampOptions& lamps, c
   };
   note(world.geometry->scene->lamps);
   for (const std::vector<scene::Lamp>& of_body : world.lamps_of_bodies) note(of_body);
-  std::string known;
-  for (const std::string& group : groups) known += (known.empty() ? "" : ", ") + group;
   for (const std::string& group : lamps.off) {
     if (groups.count(group) == 0)
-      refuse("lamps_off", group, groups.empty() ? "left out: there are no lamps" : "one of " + known);
+      refuse("lamps_off", group, groups.empty() ? "left out: there are no lamps" : "one of " + commaList(groups));
   }
   std::set<std::pair<std::string, bool>> sets;
   for (const scene::Lamp& lamp : world.geometry->scene->lamps) sets.emplace(lamp.group, lamp.relative);

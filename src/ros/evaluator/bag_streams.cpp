@@ -9,6 +9,7 @@
 
 #include "ros/evaluator/bag_topics.h"
 #include "sunlit/quantity/columns.h"
+#include "sunlit/quantity/comma_list.h"
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
@@ -53,11 +54,9 @@ std::vector<std::string> imageStreamsIn(const std::string& bag, const ViewTopics
   return streams;
 }
 
-std::string listed(const std::vector<std::string>& streams) {
-  std::string text;
-  for (const std::string& stream : streams)
-    text += (text.empty() ? "" : ", ") + (stream.empty() ? "one without a name" : stream);
-  return text;
+std::string listed(std::vector<std::string> streams) {
+  std::replace(streams.begin(), streams.end(), std::string(), std::string("one without a name"));
+  return commaList(streams);
 }
 
 bool isSameBag(const std::string& a, const std::string& b) {

@@ -7,14 +7,13 @@
 #include <stdexcept>
 
 #include "sunlit/evaluate/files/stream_name.h"
+#include "sunlit/quantity/comma_list.h"
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
 
 std::string topicsInWords(const std::set<std::string>& topics) {
-  std::string text;
-  for (const std::string& topic : topics) text += (text.empty() ? "" : ", ") + topic;
-  return text.empty() ? "nothing" : text;
+  return topics.empty() ? "nothing" : commaList(topics);
 }
 
 namespace {

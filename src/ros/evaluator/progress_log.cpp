@@ -10,6 +10,7 @@
 #include "ros/conversions/received_images.h"
 #include "ros/conversions/time.h"
 #include "sunlit/evaluate/files/report.h"
+#include "sunlit/quantity/comma_list.h"
 #include "sunlit/quantity/duration.h"
 
 namespace sunlit::ros_interface {
@@ -139,20 +140,14 @@ std::string localisationTable(const std::vector<evaluate::LocalisationSummary>& 
   return table;
 }
 
-std::string listOf(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
 std::string faultsOf(const evaluate::LocalisationOutcome& outcome) {
   if (outcome.isWhole()) return "";
   std::string line;
   const auto add = [&](const std::string& text) { line += (line.empty() ? "" : "; ") + text; };
   if (!outcome.uncompared.empty())
-    add("not localised, since no image of it was evaluated in a pair: " + listOf(outcome.uncompared));
+    add("not localised, since no image of it was evaluated in a pair: " + commaList(outcome.uncompared));
   if (!outcome.unplaced.empty())
-    add("no query can be found by " + listOf(outcome.unplaced) +
+    add("no query can be found by " + commaList(outcome.unplaced) +
         ", since depth tells the place of none of the features in the map: is it of the map's camera, in m "
         "or mm, and not 0?");
   if (outcome.key_frames == 0)
