@@ -38,10 +38,9 @@ bool areTooNear(const Eigen::Vector3d& point, const Eigen::Vector3d& previous) {
 }
 
 std::optional<std::string> faultOf(const Eigen::Vector3d& point, const Eigen::Vector3d* previous) {
-  const Range near{-kFarthestPose_m, kFarthestPose_m};
   for (int axis = 0; axis < 3; ++axis) {
-    if (near.contains(point[axis])) continue;
-    return refusal(std::string(1, "xyz"[axis]), textOf(point[axis]), near.words() + " m");
+    if (kPoseRange_m.contains(point[axis])) continue;
+    return refusal(std::string(1, "xyz"[axis]), textOf(point[axis]), kPoseRange_m.words() + " m");
   }
   if (previous != nullptr && areTooNear(point, *previous)) {
     return "it is less than 1 mm from the waypoint before it in plan view; leave it out";

@@ -40,10 +40,9 @@ struct TypedPose {
 };
 
 inline std::vector<Field> fieldsOf(TypedPose& pose) {
-  const Range near{-kFarthestPose_m, kFarthestPose_m};
-  return {{"x", &pose.x, "m", near, ""},
-          {"y", &pose.y, "m", near, ""},
-          {"z", &pose.z, "m", near, ""},
+  return {{"x", &pose.x, "m", kPoseRange_m, ""},
+          {"y", &pose.y, "m", kPoseRange_m, ""},
+          {"z", &pose.z, "m", kPoseRange_m, ""},
           {"yaw", &pose.yaw_deg, "deg", {}, "counter-clockwise from east"},
           {"pitch", &pose.pitch_deg, "deg", {-90, 90}, "up is positive"}};
 }

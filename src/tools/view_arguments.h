@@ -39,8 +39,9 @@ struct LookAt {
 };
 
 inline std::vector<Field> fieldsOf(LookAt& point) {
-  const Range near{-kFarthestPose_m, kFarthestPose_m};
-  return {{"x", &point.x, "m", near, ""}, {"y", &point.y, "m", near, ""}, {"z", &point.z, "m", near, ""}};
+  return {{"x", &point.x, "m", kPoseRange_m, ""},
+          {"y", &point.y, "m", kPoseRange_m, ""},
+          {"z", &point.z, "m", kPoseRange_m, ""}};
 }
 
 /// Collects words until the camera can be placed.

@@ -28,9 +28,8 @@ struct TopDown {
 };
 
 inline std::vector<Field> fieldsOf(TopDown& ground) {
-  const Range near{-kFarthestPose_m, kFarthestPose_m};
-  return {{"x", &ground.x, "m", near, ""},
-          {"y", &ground.y, "m", near, ""},
+  return {{"x", &ground.x, "m", kPoseRange_m, ""},
+          {"y", &ground.y, "m", kPoseRange_m, ""},
           {"extent", &ground.extent_m, "m", Range::above(0, 2e5), "from west to east"}};
 }
 

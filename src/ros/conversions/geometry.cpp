@@ -46,9 +46,7 @@ Eigen::Isometry3d fromPose(const geometry_msgs::Pose& pose) {
   tf2::fromMsg(pose.position, position);
   tf2::fromMsg(pose.orientation, rotation);
   for (int axis = 0; axis < 3; ++axis)
-    require(
-        std::string("pose.position.") + "xyz" [axis], position[axis], { -kFarthestPose_m, kFarthestPose_m },
-        "m");
+    require(std::string("pose.position.") + "xyz"[axis], position[axis], kPoseRange_m, "m");
   // Written so that NaN fails too.
   if (!(std::abs(rotation.norm() - 1.0) < kUnitLength)) {
     throw std::invalid_argument("pose.orientation has the length " + std::to_string(rotation.norm()) +

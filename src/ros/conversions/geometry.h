@@ -20,7 +20,7 @@ geometry_msgs::Pose toPose(const Eigen::Isometry3d& frame_from_body);
 geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& parent_from_child,
                                             const std_msgs::Header& header, const std::string& child);
 
-/// Throws std::invalid_argument where the position is not within ±kFarthestPose_m or the quaternion far from
+/// Throws std::invalid_argument where the position is outside kPoseRange_m or the quaternion far from
 /// unit length.
 Eigen::Isometry3d fromPose(const geometry_msgs::Pose& pose);
 /// The quaternion may have any length but 0.
