@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <stdexcept>
 
 #include "evaluate/run/evaluation_state.h"
 #include "evaluate/run/run_file.h"
+#include "evaluate/run/suns_of_runs.h"
 #include "sunlit/evaluate/files/stream_name.h"
 #include "sunlit/evaluate/same_place.h"
 #include "sunlit/image/files.h"
@@ -144,17 +147,20 @@ std::size_t leaveOutNamed(const std::string& folder, const std::vector<PairSpec>
   return dropped_lines;
 }
 
-/// Of pictures in `records`, which earlier runs evaluated.
+/// Of pictures in `records`, which earlier runs evaluated: what is needed of their suns.
 void takeUpSuns(const std::vector<PairSpec>& pairs, const std::vector<PairRecord>& records,
-                const RecordFiles& files, Suns& suns) {
+                const RecordFiles& files,
+                const std::function<void(const std::string&, const Captures&)>& use) {
   std::set<std::pair<std::string, std::int64_t>> evaluated;  // streams and stamps
   for (const PairRecord& record : records) {
     const PairSpec& pair = pairs[record.pair];
     evaluated.insert({{pair.a, record.stamp_ns}, {pair.b, record.stamp_ns}});
   }
+  std::map<std::string, Captures> by_stream;
   for (const auto& [key, capture] : files.captures()) {
-    if (evaluated.count({key.first, capture.stamp_ns}) != 0) suns.takeUp(key.first, capture);
+    if (evaluated.count({key.first, capture.stamp_ns}) != 0) by_stream[key.first].push_back(capture);
   }
+  for (const auto& [stream, captures] : by_stream) use(stream, captures);
 }
 
 }  // namespace
@@ -217,8 +223,12 @@ void Evaluation::State::settleTakenUp() {
     held_.emplace(std::make_pair(record.pose, record.pair), record.stamp_ns);
     ++counts_.pairs[record.pair].resumed;
   }
-  // Without a rate a clock that begins anew with each run may have other times at the same poses.
-  if (poses_.hasRate()) takeUpSuns(options_.pairs, records_, *record_files_, suns_);
+  // Without a rate a clock that begins anew with each run may have other times at the same poses, but for one
+  // that stands still.
+  takeUpSuns(options_.pairs, records_, *record_files_, [&](const std::string& stream, const Captures& seen) {
+    if (!poses_.hasRate() && !standsStill(seen)) return;
+    for (const CaptureRecord& capture : seen) suns_.takeUp(stream, capture);
+  });
 }
 
 void Evaluation::State::requireMergeable(const std::string& folder) const {
@@ -301,6 +311,7 @@ void Evaluation::State::takeUpPoses() {
 }
 
 void Evaluation::State::takeUpEarlierRuns() {
+  requireOneSun(options_);
   record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
   mendLostFile(file(kLostFile));
   LeftLines left = takeUp(options_.output_dir);

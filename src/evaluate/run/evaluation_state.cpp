@@ -172,13 +172,14 @@ void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
   if (is_finished_) return;
   poses_.learn(capture.stamp_ns, capture.pose);
   const std::int64_t pose = poses_.settled(capture.stamp_ns, capture.pose);
-  record_files_->add(options_.streams.at(stream), capture, !isAskedFor(stream, capture.stamp_ns, pose));
+  const bool is_first =
+      record_files_->add(options_.streams.at(stream), capture, !isAskedFor(stream, capture.stamp_ns, pose));
   if (!capture.utc && !capture.utc_text.empty())
     report(
         {"unusable", capture.pose, capture.stamp_ns, options_.streams[stream],
          "utc is \"" + capture.utc_text + "\", so that nobody can tell whether its sun was set meanwhile"});
   if (places_.isBroken(options_.streams[stream], capture)) separate(capture.stamp_ns);
-  nameOtherSuns(stream, suns_.add(options_.streams[stream], capture));
+  if (is_first) nameOtherSuns(stream, suns_.add(options_.streams[stream], capture));
   closeIfWhole(capture.stamp_ns);
 }
 

@@ -1,7 +1,9 @@
 #include "sunlit/evaluate/run/one_sun.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <tuple>
 
 #include "sunlit/quantity/angle.h"
@@ -34,7 +36,44 @@ double secondsFrom(std::int64_t a_ns, std::int64_t b_ns) {
   return 1e-9 * static_cast<double>(b_ns - a_ns);
 }
 
+std::string differenceWithin(const Captures& captures, bool has_clock) {
+  OneSite site;
+  OneSun sun;
+  std::vector<OtherSun> others;
+  for (const CaptureRecord& capture : captures) {
+    if (!capture.utc) continue;
+    if (const std::string fault = site.faultOf(capture); !fault.empty()) return fault;
+    if (has_clock) others = sun.add(capture);
+    if (!others.empty()) return others.front().fault;
+  }
+  others = sun.finish();
+  return others.empty() ? "" : others.front().fault;
+}
+
 }  // namespace
+
+bool standsStill(const Captures& captures) {
+  if (captures.empty() || !captures.front().utc) return false;
+  const auto isOfFirst = [&](const CaptureRecord& capture) { return capture.utc == captures.front().utc; };
+  return secondsFrom(captures.front().stamp_ns, captures.back().stamp_ns) > kLateStart_s &&
+         std::all_of(captures.begin(), captures.end(), isOfFirst);
+}
+
+std::string differenceOf(const Captures& a, const Captures& b, bool are_of_one_clock) {
+  if (a.empty() || b.empty()) return "";
+  Captures all = a;
+  all.insert(all.end(), b.begin(), b.end());
+  if (are_of_one_clock) {
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& l, const auto& r) { return l.stamp_ns < r.stamp_ns; });
+    return differenceWithin(all, true);
+  }
+  // Nobody can tell when the one was after the other, which does not matter to suns that stand still.
+  const std::int64_t later_ns = a.back().stamp_ns - b.front().stamp_ns + 1;
+  std::for_each(all.begin() + static_cast<std::ptrdiff_t>(a.size()), all.end(),
+                [=](CaptureRecord& capture) { capture.stamp_ns += later_ns; });
+  return differenceWithin(all, standsStill(a) && standsStill(b));
+}
 
 // s of sun time a second of ROS time; 0 for one and the same.
 double OneSun::rateOf(const Seen& a, const Seen& b) {
@@ -164,7 +203,7 @@ void Suns::takeUp(const std::string& stream, const CaptureRecord& capture) {
 }
 
 std::vector<OtherSun> Suns::add(const std::string& stream, const CaptureRecord& capture) {
-  if (!capture.utc || !come_.emplace(stream, capture.stamp_ns).second) return {};
+  if (!capture.utc) return {};
   const std::string fault = sites_[stream].faultOf(capture);
   if (!fault.empty()) return kept(stream, {{capture.stamp_ns, fault}});
   return kept(stream, suns_[stream].add(capture));

@@ -43,7 +43,26 @@ std::string lineOf(const Problem& p) {
          "\n";
 }
 
+/// Of captures.csv; none of another sun, which a run that was killed had no time to leave out, `counts`.
+void forEachRow(
+    const std::string& folder,
+    const std::function<void(const std::string& stream, const CaptureRecord& capture, bool counts)>& use) {
+  const auto other_suns = problemsOf(kOtherSun, folder);
+  forEachCsvRow(folder + "/captures.csv", kCapturesHeader, [&](const std::vector<std::string>& f) {
+    requireStreamName(f[0], "stream");
+    const CaptureRecord capture = captureOf(f);
+    use(f[0], capture, other_suns.count({capture.stamp_ns, f[0]}) == 0);
+  });
+}
+
 }  // namespace
+
+void forEachCapture(const std::string& folder,
+                    const std::function<void(const std::string&, const CaptureRecord&)>& use) {
+  forEachRow(folder, [&](const std::string& stream, const CaptureRecord& capture, bool counts) {
+    if (counts) use(stream, capture);
+  });
+}
 
 RecordFiles::RecordFiles(const std::string& folder, PoseIndex& poses)
     : folder_(folder), path_(folder, poses) {
@@ -56,28 +75,26 @@ void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) {
 }
 
 void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
-  const auto other_suns = problemsOf(kOtherSun, folder);  // which it had no time to leave out, if killed
   bool has_any = false;
-  forEachCsvRow(folder + "/captures.csv", kCapturesHeader, [&](const std::vector<std::string>& f) {
-    requireStreamName(f[0], "stream");
-    const CaptureRecord capture = captureOf(f);
+  forEachRow(folder, [&](const std::string& stream, const CaptureRecord& capture, bool counts) {
     has_any = true;
-    if (other_suns.count({capture.stamp_ns, f[0]}) == 0) keep(f[0], capture);
+    if (counts) keep(stream, capture);
     poses.learn(capture.stamp_ns, capture.pose);
   });
   if (has_any) writeCaptures({});  // without torn ends, before going on
 }
 
-void RecordFiles::add(const std::string& stream, const CaptureRecord& capture, bool is_held) {
-  if (!come_.emplace(stream, capture.stamp_ns).second) return;
+bool RecordFiles::add(const std::string& stream, const CaptureRecord& capture, bool is_held) {
+  if (!come_.emplace(stream, capture.stamp_ns).second) return false;
   if (const auto held = captures_.find({stream, capture.pose}); held != captures_.end()) {
-    if (is_held) return;
+    if (is_held) return true;
     if (come_.count({stream, held->second.stamp_ns}) == 0) captures_.erase(held);
   }
   openCaptures();
   keep(stream, capture);
   captures_file_.append(lineOf(stream, capture));
   noteImage(capture.stamp_ns);  // even if it never comes
+  return true;
 }
 
 void RecordFiles::keep(const std::string& stream, const CaptureRecord& capture) {

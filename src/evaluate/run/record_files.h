@@ -19,6 +19,10 @@
 
 namespace sunlit::evaluate {
 
+/// What captures.csv of `folder` has that counts, by stream and in no order.
+void forEachCapture(const std::string& folder,
+                    const std::function<void(const std::string& stream, const CaptureRecord& capture)>& use);
+
 /// captures.csv and path.csv. They grow while images come in and are sorted, without doubles, at the end.
 class RecordFiles {
  public:
@@ -27,8 +31,8 @@ class RecordFiles {
   /// Adds what a run in another folder left.
   void merge(const std::string& other_folder, PoseIndex& poses);
   /// Of those of one stream and stamp the first counts that comes, as of images; one of an earlier run only
-  /// where this `is_held`: its picture is not evaluated again.
-  void add(const std::string& stream, const CaptureRecord& capture, bool is_held);
+  /// where this `is_held`: its picture is not evaluated again. Whether it is the first.
+  bool add(const std::string& stream, const CaptureRecord& capture, bool is_held);
   /// By stream, and then by pose.
   const std::map<std::pair<std::string, std::int64_t>, CaptureRecord>& captures() const { return captures_; }
   void add(const PlaceRecord& place) { path_.add(place); }

@@ -23,6 +23,16 @@ struct OtherSun {
   std::string fault;  ///< in words, and what may have made it
 };
 
+/// Captures of one stream, by rising stamp.
+using Captures = std::vector<CaptureRecord>;
+
+/// Whether all tell the same `utc`, for longer than a clock may wait for its first subscriber.
+bool standsStill(const Captures& captures);
+
+/// In words, where those of two runs are of different suns; else empty. Where the stamps of both are not `of
+/// one clock`, suns that move are compared by their site alone.
+std::string differenceOf(const Captures& a, const Captures& b, bool are_of_one_clock);
+
 /// The captures of one condition. Its sun is that of the first: it stands still, or its civil time goes on
 /// with the stamps at one rate, which nobody tells and they show. A clock that is set meanwhile jumps.
 class OneSun {
@@ -83,7 +93,7 @@ class Suns {
   /// Of one whose picture an earlier run evaluated: what is added has to go on from its sun. Before any is
   /// added, by rising stamp.
   void takeUp(const std::string& stream, const CaptureRecord& capture);
-  /// As OneSun::add(); nothing where `utc` is unknown. Of captures of one stamp the first counts.
+  /// As OneSun::add(); nothing where `utc` is unknown. One of each stamp.
   std::vector<OtherSun> add(const std::string& stream, const CaptureRecord& capture);
   std::vector<OtherSun> finish(const std::string& stream);
   /// As far as known by now.
@@ -95,7 +105,7 @@ class Suns {
   std::vector<OtherSun> kept(const std::string& stream, std::vector<OtherSun> found);
   std::map<std::string, OneSun> suns_;
   std::map<std::string, OneSite> sites_;
-  std::set<std::pair<std::string, std::int64_t>> come_, others_;  // by stream and stamp
+  std::set<std::pair<std::string, std::int64_t>> others_;  // by stream and stamp
 };
 
 }  // namespace sunlit::evaluate

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "sunlit/evaluate/run/one_sun.h"
+#include "support/message_of.h"
 #include "unit/evaluate/run/small_evaluation.h"
 
 namespace sunlit::evaluate {
@@ -297,6 +298,96 @@ TEST(OneSun, IsSeenFromTheSiteOfWhatEarlierRunsEvaluated) {
   suns.takeUp("h12", capture);
   capture.sun_elevation_deg = 32.5;
   EXPECT_EQ(suns.add("h12", capture).size(), 1u) << "also of the stamp of one that was taken up";
+}
+
+/// A run of some poses in a folder of its own, h12 of which has the sun of `clock_s`; or one that merges
+/// such.
+struct MergedRuns {
+  double frame_rate = 0.0;
+  const TemporaryFolder folder = {};
+
+  EvaluationOptions options(const std::string& name) const {
+    EvaluationOptions options = optionsFor(folder);
+    options.output_dir = folder.file(name);
+    options.frame_rate = frame_rate;
+    if (frame_rate > 0.0) options.stamp_start_ns = stampOf(0);
+    return options;
+  }
+  Outcome run(const std::string& name, std::int64_t first, std::int64_t end,
+              const std::function<double(std::int64_t)>& clock_s) const {
+    Evaluation evaluation(options(name), {});
+    for (std::int64_t pose = first; pose < end; ++pose) {
+      evaluation.addCapture(1, captureAt(pose, clock_s(pose)));
+      feedPose(evaluation, pose);
+    }
+    return evaluation.finish();
+  }
+  /// Why these are not merged; empty where they are.
+  std::string refusal(const std::vector<std::string>& names) const {
+    EvaluationOptions merging = options("merged");
+    for (const std::string& name : names) merging.merge.push_back(folder.file(name));
+    return messageOf<std::invalid_argument>([&] { Evaluation(merging, {}).finish(); });
+  }
+};
+
+double atNoon(std::int64_t /*pose*/) {
+  return 0.0;
+}
+double anHourLater(std::int64_t /*pose*/) {
+  return kHour_s;
+}
+
+TEST(OneSun, IsThatOfAllRunsThatAreMerged) {
+  for (const double rate : {0.0, 10.0}) {
+    const MergedRuns runs{rate};
+    runs.run("start", 0, 20, atNoon);
+    runs.run("end", 20, 40, atNoon);
+    runs.run("other", 20, 40, anHourLater);
+    const std::string fault = "its sky is of noon+3600, not of noon+0 as by the first capture" + kWasSet;
+    for (const std::string first : {"start", "end"})
+      EXPECT_EQ(runs.refusal({first, "other"}), "merge: " + runs.folder.file("other") +
+                                                    " holds h12 under another sun than " +
+                                                    runs.folder.file(first) + ": " + fault)
+          << rate;
+    EXPECT_FALSE(std::filesystem::exists(runs.folder.file("merged/captures.csv"))) << "nothing is changed";
+    EXPECT_EQ(runs.refusal({"start", "end"}), "") << rate;
+    EXPECT_NE(runs.refusal({"other"}), "") << "nor is one of those that are merged already";
+  }
+}
+
+// A clock that begins anew with each run has other times at other poses, and by a rate it has not.
+TEST(OneSun, OfRunsThatAreMergedMayMove) {
+  for (const double rate : {0.0, 10.0}) {
+    const MergedRuns runs{rate};
+    runs.run("start", 0, 20, [](std::int64_t pose) { return 60.0 * static_cast<double>(pose); });
+    runs.run("end", 20, 40, [](std::int64_t pose) { return 60.0 * static_cast<double>(pose); });
+    runs.run("anew", 20, 40, [](std::int64_t pose) { return 60.0 * static_cast<double>(pose - 20); });
+    EXPECT_EQ(runs.refusal({"start", "anew"}) == "", rate == 0.0) << rate;
+    EXPECT_EQ(runs.refusal({"start", "end"}), "") << rate;
+  }
+}
+
+TEST(OneSun, ThatStandsStillIsThatOfEarlierRunsWithoutARateToo) {
+  const MergedRuns runs;
+  runs.run("out", 0, 20, atNoon);
+  const Outcome set = runs.run("out", 20, 23, anHourLater);
+  EXPECT_EQ(set.counts.streams[1].other_sun, 3u);
+  EXPECT_EQ(set.counts.streams[0].other_sun, 0u);
+  EXPECT_TRUE(runs.run("out", 20, 23, atNoon).isWhole());
+}
+
+TEST(OneSun, IsSeenFromOneSiteByAllRunsThatAreMerged) {
+  Captures here, there;
+  for (std::int64_t pose = 0; pose < 3; ++pose) {
+    here.push_back(captureAt(pose, 60.0 * static_cast<double>(pose)));
+    there.push_back(here.back());
+    there.back().sun_elevation_deg = 12.5;
+  }
+  for (const bool are_of_one_clock : {false, true}) {
+    EXPECT_EQ(differenceOf(here, here, are_of_one_clock), "");
+    EXPECT_NE(differenceOf(here, there, are_of_one_clock).find("12.5 deg from"), std::string::npos);
+    EXPECT_EQ(differenceOf(here, {}, are_of_one_clock), "");
+  }
 }
 
 // Of two stamps of a pose the earlier counts, whatever the later one is.
