@@ -251,6 +251,7 @@ def _self_test_renderer(typed, given, places, beginning):
         wait_for=[EVALUATOR + "/progress"],
         subscribers={"images": 1, "of": [EVALUATOR]},
         sun_namespace="/",
+        warn_of_inputs=False,  # the first does
         publish_tf=False,
         count_skipped=True)  # the evaluator counts what both have rendered
     return tree

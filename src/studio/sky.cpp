@@ -46,7 +46,7 @@ SkyBodies bodiesAt(const Instant& instant, const Site& site, const Air& air,
 
 std::shared_ptr<const std::vector<sky::Star>> loadStars(const Reports& reports) {
   const astronomy::StarCatalogue catalogue = astronomy::readStarCatalogue();
-  for (const std::string& warning : catalogue.warnings) tell(reports.warning, warning);
+  for (const std::string& warning : catalogue.warnings) tellFlaw(reports, warning);
   auto stars = std::make_shared<std::vector<sky::Star>>();
   stars->reserve(catalogue.stars.size());
   for (const astronomy::CatalogueStar& star : catalogue.stars)

@@ -23,7 +23,7 @@ namespace {
 
 void tellOf(const WorldOptions& options, const scene::Scene& scene, const std::string& size,
             const Reports& reports) {
-  for (const std::string& warning : scene.warnings) tell(reports.warning, options.name + ": " + warning);
+  for (const std::string& warning : scene.warnings) tellFlaw(reports, options.name + ": " + warning);
   const auto through = std::count_if(scene.lamps.begin(), scene.lamps.end(),
                                      [](const scene::Lamp& lamp) { return !lamp.casts_shadows; });
   tell(reports.note, "World " + options.name + ": " + size + ", " + std::to_string(scene.textures.size()) +
@@ -59,9 +59,9 @@ std::string sizeOf(const scene::Shape& shape) {
 void tellOfHousings(const WorldOptions& options, const std::vector<std::string>& lamps,
                     const Reports& reports) {
   if (lamps.empty()) return;
-  tell(reports.warning, options.name + ": " + std::to_string(lamps.size()) +
-                            " lamps stand within something opaque all around, and shine through it: " +
-                            lamps.front() + (lamps.size() > 1 ? "; …" : ""));
+  tellFlaw(reports, options.name + ": " + std::to_string(lamps.size()) +
+                        " lamps stand within something opaque all around, and shine through it: " +
+                        lamps.front() + (lamps.size() > 1 ? "; …" : ""));
 }
 
 /// For inMemory().
@@ -143,16 +143,16 @@ void requireGroups(const light::World& world, const light::LampOptions& lamps, c
   for (const std::vector<scene::Lamp>& of_body : world.lamps_of_bodies) note(of_body);
   for (const std::string& group : lamps.off) {
     if (groups.count(group) == 0)
-      refuse("lamps_off", group, groups.empty() ? "left out: there are no lamps" : "one of " + commaList(groups));
+      refuse("lamps_off", group,
+             groups.empty() ? "left out: there are no lamps" : "one of " + commaList(groups));
   }
   std::set<std::pair<std::string, bool>> sets;
   for (const scene::Lamp& lamp : world.geometry->scene->lamps) sets.emplace(lamp.group, lamp.relative);
   if (!lamps.off.empty() && sets.size() > light::kMostLampSets) {
-    tell(reports.warning,
-         "there are " + std::to_string(sets.size()) +
-             " groups of lamps: lamps_off switches what surfaces pass on of the light of all "
-             "but the first " +
-             std::to_string(light::kMostLampSets - 1) + " as one, by the share that burns");
+    tellFlaw(reports, "there are " + std::to_string(sets.size()) +
+                          " groups of lamps: lamps_off switches what surfaces pass on of the light of all "
+                          "but the first " +
+                          std::to_string(light::kMostLampSets - 1) + " as one, by the share that burns");
   }
 }
 

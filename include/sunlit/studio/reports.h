@@ -22,6 +22,9 @@ struct Reports {
   /// What Studio has loaded and is about to bake, with its light::fingerprint(); what it throws ends the
   /// work.
   std::function<void(const light::World& world, const std::string& fingerprint)> loaded = {};
+  /// A warning of what the files of world and stars have amiss, which all who read them find alike; unset:
+  /// `warning` gets it.
+  std::function<void(const std::string& line)> flaw = {};
 };
 
 }  // namespace sunlit::studio

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "ros/render/clock_source.h"
+#include "ros/render/input_log.h"
 #include "ros/render/render_node.h"
+#include "sunlit/quantity/memory.h"
 #include "sunlit/ros/node_main.h"
 
 namespace {
@@ -17,6 +19,7 @@ int run(const ros::NodeHandle& private_node) {
   const ros::NodeHandle node;
   const ParameterReader parameters(private_node);
   const RenderNodeOptions options = readRenderNodeOptions(parameters);
+  if (!options.warns_of_inputs) leaveInputsToAnother();
   const RenderConditions conditions = readRenderConditions(parameters, options.sky);
   parameters.rejectUnknown();
   std::optional<tbb::global_control> limit;
@@ -41,8 +44,12 @@ int runOrTakeBackSimTime() {
   const ros::NodeHandle private_node("~");
   try {
     return run(private_node);
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
     if (isMeantToBeTheTime(private_node)) takeBackSimTime();
+    if (areInputsLeftToAnother()) {
+      ROS_INFO("It ends: %s", sunlit::reasonInWords(error).c_str());
+      if (doesAnotherEndAll()) return 1;
+    }
     throw;
   }
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "ros/render/input_log.h"
 #include "ros/render/option_names.h"
 #include "sunlit/ros/node_rows.h"
 #include "sunlit/scene/load.h"
@@ -202,10 +203,10 @@ void requireWeather(const sky::Weather& weather, const studio::SkyOptions& sky) 
   try {
     validate(weather, airOf(sky, 0.0));
   } catch (const std::invalid_argument& error) {
-    ROS_WARN(
-        "At sea level %s. A site that is high enough has it; at another this node ends once the sun "
-        "tells where it is",
-        error.what());
+    ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME,
+            "At sea level %s. A site that is high enough has it; at another this node ends once the sun "
+            "tells where it is",
+            error.what());
   }
 }
 
@@ -339,6 +340,11 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
          "",
          {},
          "for map.png, map.yaml, timing.csv and what a resumed run goes by; empty: nowhere"},
+        {"warn_of_inputs",
+         &options.warns_of_inputs,
+         "",
+         {},
+         "of what world, robot, path and weather have amiss; false: another renderer of the same does"},
         {"threads", &options.threads, "", {0, 1024}, "0: as many as there are cores"},
         diagnosticPeriodRow(&options.diagnostic_period_s)}});
 }

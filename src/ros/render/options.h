@@ -103,6 +103,7 @@ struct RenderNodeOptions {
   bool publish_tf = true;
   bool compressed = false;  ///< pictures in PNG
   CameraFrames frames;
+  bool warns_of_inputs = true;       ///< else another renderer of the same does
   int threads = 0;                   ///< 0: as many as there are cores
   double diagnostic_period_s = 1.0;  ///< which the WallUpdater reads by itself
 

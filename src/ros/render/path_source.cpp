@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ros/render/input_log.h"
 #include "sunlit/image/content_hash.h"
 #include "sunlit/quantity/range.h"
 #include "sunlit/scene/race_track.h"
@@ -69,8 +70,9 @@ void PathSource::warnIfFarFrom(const Eigen::AlignedBox3d& bounds, double far_m) 
   for (int index = first(); index < end(); index += stride())
     if (!studio::isFarFrom(bounds, mapFromCamera(index).translation(), far_m)) return;
   const std::string path = options_.file.empty() ? "the path on " + topic() : options_.file;
-  ROS_WARN("No pose of %s is near the world, %s: is it in another frame?", path.c_str(),
-           studio::reachOf(bounds).c_str());
+  ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME,
+          "No pose of %s is near the world, %s: is it in another frame?", path.c_str(),
+          studio::reachOf(bounds).c_str());
 }
 
 void PathSource::onPath(const ros::MessageEvent<const nav_msgs::Path>& event) {
@@ -108,7 +110,7 @@ void PathSource::sample(const path::Waypoints& waypoints) {
   std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypoints, options_.sampling);
   path::requireWithin(options_.selection, static_cast<int>(poses.size()), "path/");
   const std::string crowded = stride() > 1 ? "" : path::crowdedText(waypoints, options_.sampling);
-  if (!crowded.empty()) ROS_WARN("%s", crowded.c_str());
+  if (!crowded.empty()) ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME, "%s", crowded.c_str());
   map_from_camera_ = std::move(poses);
 }
 

@@ -13,6 +13,7 @@
 
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/images.h"
+#include "ros/render/input_log.h"
 #include "sunlit/ros/delivery.h"
 
 namespace sunlit::ros_interface {
@@ -171,7 +172,7 @@ int RenderNode::run() {
 
 void RenderNode::reportLosses() const {
   // Not through the log, which a signal has closed already.
-  if (streams_.blindPoses() > 0)
+  if (streams_.blindPoses() > 0 && !areInputsLeftToAnother())
     std::fprintf(stderr, "Poses that see nothing of the world: %zu of %zu\n", streams_.blindPoses(),
                  streams_.poses());
   for (std::size_t i = 0; i < streams_.size(); ++i) {

@@ -6,6 +6,8 @@
 
 #include <stdexcept>
 
+#include "ros/render/input_log.h"
+
 namespace sunlit::ros_interface {
 
 namespace {
@@ -106,7 +108,7 @@ std::optional<scene::Robot> loadRobot(const RobotOptions& options, const scene::
   checkLink(robot, options.base_frame, "robot/base_frame");
   checkLink(robot, options.camera_link, "robot/camera_in_base");
   for (const std::string& warning : robot.warnings)
-    ROS_WARN("Robot %s: %s", robot.name.c_str(), warning.c_str());
+    ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME, "Robot %s: %s", robot.name.c_str(), warning.c_str());
   ROS_INFO("Robot %s: %zu links, %zu triangles", robot.name.c_str(), robot.links.size(),
            robot.triangleCount());
   return robot;

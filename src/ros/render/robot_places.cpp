@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ros/render/input_log.h"
 #include "ros/render/tf_lookup.h"
 #include "sunlit/image/content_hash.h"
 
@@ -78,7 +79,8 @@ void warnUnlessLevel(const scene::RobotLink& link, const Outlook& outlook) {
   constexpr double kLevel_rad = 0.1 * kRadPerDeg;
   const double tilt_rad = std::acos(std::clamp(outlook.up.z(), -1.0, 1.0));
   if (tilt_rad < kLevel_rad) return;
-  ROS_WARN(
+  ROS_LOG(
+      inputLevel(), ROSCONSOLE_DEFAULT_NAME,
       "The robot's link %s, which carries the camera, is tilted by %.1f deg: on a path the camera is level, "
       "and looks where the link does from above",
       link.name.c_str(), tilt_rad / kRadPerDeg);
@@ -129,10 +131,10 @@ void RobotPlaces::placeCamera(const scene::Robot& robot, const RobotOptions& opt
   }
   const double above_path_m = camera_height_m - camera_in_base_.z() + lowest_m;
   if (std::abs(above_path_m) > kUnevenness_m) {
-    ROS_WARN(
-        "The lowest point of robot %s is %.2f m above the path: the camera is %.2f m above the path and "
-        "%.2f m above the robot's base",
-        robot.name.c_str(), above_path_m, camera_height_m, camera_in_base_.z());
+    ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME,
+            "The lowest point of robot %s is %.2f m above the path: the camera is %.2f m above the path and "
+            "%.2f m above the robot's base",
+            robot.name.c_str(), above_path_m, camera_height_m, camera_in_base_.z());
   }
 }
 

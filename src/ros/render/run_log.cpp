@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include "ros/render/input_log.h"
 #include "sunlit/quantity/duration.h"
 
 namespace sunlit::ros_interface {
@@ -33,6 +34,9 @@ studio::Reports loggedReports() {
   studio::Reports reports;
   reports.note = [](const std::string& line) { ROS_INFO("%s", line.c_str()); };
   reports.warning = [](const std::string& line) { ROS_WARN("%s", line.c_str()); };
+  reports.flaw = [](const std::string& line) {
+    ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME, "%s", line.c_str());
+  };
   reports.baking = BakeLog();
   return reports;
 }

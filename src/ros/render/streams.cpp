@@ -7,6 +7,8 @@
 #include <future>
 #include <stdexcept>
 
+#include "ros/render/input_log.h"
+
 namespace sunlit::ros_interface {
 
 namespace {
@@ -79,7 +81,8 @@ void Streams::take(const Shot& shot, const std::optional<Shot>& next) {
 void Streams::countView(const Shot& shot) {
   ++poses_;
   if (studio_.seesAnything() || blind_poses_++ > 0) return;
-  ROS_WARN("At pose %d %s. More like it are counted", shot.pose_index, studio_.whySeesNothing().c_str());
+  ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME, "At pose %d %s. More like it are counted", shot.pose_index,
+          studio_.whySeesNothing().c_str());
 }
 
 void Streams::expose(const Shot& shot) {

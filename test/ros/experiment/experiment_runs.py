@@ -13,7 +13,7 @@ import rosbag
 import rospy
 import rostest
 import yaml
-from launching import DIFFERENCES, LONG, POSES, WORLD, Launched, Terminal, kill_leftovers, small_experiment
+from launching import DIFFERENCES, LONG, POSES, WORLD, WORLDS, Launched, Terminal, kill_leftovers, small_experiment
 from std_srvs.srv import Trigger
 from sunlit.srv import SetDateTime, SetSite
 
@@ -109,6 +109,27 @@ class ExperimentRuns(unittest.TestCase):
         log_of_renderer, = [name for name in os.listdir(logs) if name.startswith("render-") and name.endswith("-stdout.log")]
         with open(os.path.join(logs, log_of_renderer)) as log:
             self.assertIn("World ", log.read())
+
+    def world_with(self, content):
+        """The boxes, and this."""
+        with open(os.path.join(WORLDS, "two_boxes.world")) as file:
+            boxes = file.read()
+        world = os.path.join(self.folder, "with.world")
+        with open(world, "w") as file:
+            file.write(boxes.replace('<world name="two_boxes">', '<world name="two_boxes">' + content))
+        return world
+
+    def test_what_the_world_has_amiss_is_said_once(self):
+        world = self.world_with("<scene><fog><type>linear</type></fog></scene>")
+        run = small_experiment(os.path.join(self.folder, "amiss"), world=world, poses=6)
+        self.assertEqual(run.end(), 0, run.said())
+        self.assertEqual(run.said().count("fog is a parameter of the weather"), 1, run.said())
+
+    def test_why_a_world_cannot_be_loaded_is_said_once(self):
+        run = small_experiment(os.path.join(self.folder, "gone"), world=self.world_with("<include><uri>model://gone</uri></include>"))
+        self.assertNotEqual(run.end(), 0)
+        self.assertEqual(run.said().count("there is no model://gone"), 1, run.said())
+        self.assertEqual(run.left_running(), [])
 
     def test_replayed_recording_gives_the_same_bytes(self):
         output = os.path.join(self.folder, "replayed")

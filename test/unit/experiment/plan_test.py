@@ -336,7 +336,7 @@ class Plan(unittest.TestCase):
         for key in (main.keys() & other.keys()) - ours:
             self.assertEqual(main[key], other[key], key)
         self.assertEqual(main.keys() - other.keys(), {"output_dir", "publish_clock"})
-        self.assertEqual(other.keys() - main.keys(), {"sun_namespace", "publish_tf", "count_skipped", "exact_sky"})
+        self.assertEqual(other.keys() - main.keys(), {"sun_namespace", "publish_tf", "count_skipped", "exact_sky", "warn_of_inputs"})
         self.assertEqual((main["night"], main["noise"], main["exposure"]["mode"], main["camera"]["width"]),
                          ({"enabled": False}, {"enabled": True, "seed": 7}, "auto", 320))
         self.assertEqual((main["vignetting"], main["glare"], main["mosaic"]),
