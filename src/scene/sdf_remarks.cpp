@@ -59,30 +59,14 @@ class Remarks {
     }
   }
 
-  /// Worlds are made with zeros.
+  /// Worlds are made with zeros. Where the rest is, siteOf() tells.
   void onPlace(const XMLElement& element) {
-    const double latitude = numberIn(element, "latitude_deg"), longitude = numberIn(element, "longitude_deg"),
-                 heading = numberIn(element, "heading_deg");
-    if (latitude != 0.0 || longitude != 0.0) {
-      const auto site = [&, elevation = numberIn(element, "elevation")](const std::string& comma) {
-        return textOf(latitude) + comma + textOf(longitude) + comma + textOf(elevation);
-      };
-      builder_.warn("worlds have <spherical_coordinates>, which are not taken: the site is a parameter",
-                    placeOf(file_, element) + ": --site " + site(",") + ", of launch files site:=\"[" +
-                        site(", ") + "]\"");
-    }
+    const double heading = childNumber(element, "heading_deg");
     if (heading != 0.0)
       builder_.warn(
           "worlds have <heading_deg>, which is not taken: here x points east, so that the sun stands on the "
           "wrong side by as much, unless the poses of models and path are turned",
           placeOf(file_, element) + ": " + textOf(heading));
-  }
-
-  /// 0 where there is none.
-  static double numberIn(const XMLElement& element, const char* part) {
-    double number = 0.0;
-    std::istringstream(childText(element, part)) >> number;
-    return number;
   }
 
   const std::string& file_;

@@ -10,7 +10,7 @@
 namespace sunlit::scene {
 
 /// Names what of `sdf`, the root element of `file`, is otherwise here than in a simulator: what its cameras
-/// do not see, fog, background and shadows of its <scene>, and where on Earth it lies; each kind a warning of
+/// do not see, fog, background and shadows of its <scene>, and where it is turned to; each kind a warning of
 /// `builder`. What worlds have as they are made is nothing that they ask for.
 void remarkOnSdf(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& builder);
 

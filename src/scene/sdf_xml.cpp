@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "sunlit/image/files.h"
@@ -84,6 +85,12 @@ std::string childText(const tinyxml2::XMLElement& element, const char* name) {
   const std::size_t begin = whole.find_first_not_of(" \t\r\n");
   if (begin == std::string::npos) return "";
   return whole.substr(begin, whole.find_last_not_of(" \t\r\n") + 1 - begin);
+}
+
+double childNumber(const tinyxml2::XMLElement& element, const char* name) {
+  double number = 0.0;
+  std::istringstream(childText(element, name)) >> number;
+  return number;
 }
 
 std::vector<tinyxml2::XMLElement*> childrenOf(tinyxml2::XMLElement& parent, const char* name) {

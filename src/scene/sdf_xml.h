@@ -24,6 +24,8 @@ std::string printed(const tinyxml2::XMLDocument& document);
 /// Empty where there is no such attribute, or child with a text.
 std::string attributeOf(const tinyxml2::XMLElement& element, const char* name);
 std::string childText(const tinyxml2::XMLElement& element, const char* name);
+/// 0 where there is none, or no number in it.
+double childNumber(const tinyxml2::XMLElement& element, const char* name);
 
 /// The children at this moment, so that they may be taken out; all, or those of one name.
 std::vector<tinyxml2::XMLElement*> childrenOf(tinyxml2::XMLElement& parent, const char* name = nullptr);

@@ -302,7 +302,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   options.recipe =
       recipeOf(line, {ofNoResult(), {"--path", "--calibration", "--onnx-model"}}, options.studio.world);
   options.again = againOf(line);
-  tellOfTimezone(line, options.place);
+  tellOfPlace(line, options.place, options.studio.world);
   return options;
 }
 

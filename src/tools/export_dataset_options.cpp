@@ -158,7 +158,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   options.data_set.rate_hz = options.rate_hz / words.path.selection.stride;
   layOut(words, &options);
   options.recipe = recipeOf(line, {{"--cache"}, {"--path", "--calibration"}}, options.studio.world);
-  tellOfTimezone(line, options.place);
+  tellOfPlace(line, options.place, options.studio.world);
   return options;
 }
 

@@ -6,7 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "sunlit/scene/world_site.h"
 #include "sunlit/sky/eclipse.h"
+#include "sunlit/studio/other_site.h"
 #include "tools/terminal.h"
 
 namespace sunlit::tools {
@@ -104,6 +106,8 @@ void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   addWeather(line, &options->weather, &options->surfaces);
 }
 
+namespace {
+
 void tellOfTimezone(const studio::CommandLine& line, const PlaceOptions& place) {
   constexpr double kFar = 1.5, kHoursPerDay = 24.0, kDegreesPerHour = 15.0;
   const double late = std::remainder(place.date.timezone - place.site.longitude.deg() / kDegreesPerHour,
@@ -117,6 +121,15 @@ void tellOfTimezone(const studio::CommandLine& line, const PlaceOptions& place) 
       "zone",
       place.date.timezone, quarters / 4, quarters % 4 * 15);
   onTerminal().warning(text);
+}
+
+}  // namespace
+
+void tellOfPlace(const studio::CommandLine& line, const PlaceOptions& place,
+                 const studio::WorldOptions& world) {
+  tellOfTimezone(line, place);
+  const std::optional<scene::WorldSite> named = scene::siteOf(world.name, world.searchPath());
+  if (named && !studio::isSiteOf(*named, place.site)) onTerminal().warning(studio::otherSiteText(*named));
 }
 
 studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, bool stars) {

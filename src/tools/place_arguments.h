@@ -40,8 +40,10 @@ void requireWeather(const studio::CommandLine& line, const sky::Weather& weather
 /// --site, --date, --timezone, --turbidity, --ozone, --ground-albedo and the weather.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);
 
-/// One line on stderr where --timezone is not given, and by the default the sun is highest far from 12:00.
-void tellOfTimezone(const studio::CommandLine& line, const PlaceOptions& place);
+/// A line on stderr where --timezone is not given, and by the default the sun is highest far from 12:00; and
+/// one where `world` names another site. Throws as scene::siteOf().
+void tellOfPlace(const studio::CommandLine& line, const PlaceOptions& place,
+                 const studio::WorldOptions& world);
 
 /// The sky of `place`, over the land that goes on beyond the world of `studio`, whose albedo it prints.
 studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, bool stars = true);

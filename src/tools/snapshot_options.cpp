@@ -50,7 +50,7 @@ std::optional<SnapshotOptions> parseSnapshotOptions(const std::vector<std::strin
   if (line.has("--time")) options.hour = clock.hour + clock.minute / 60.0 + clock.second / 3600.0;
   options.view = view.options(options.place.weather);
   options.view.studio.surfaces = {options.place.surfaces};
-  if (line.has("--time")) tellOfTimezone(line, options.place);
+  if (line.has("--time")) tellOfPlace(line, options.place, options.view.studio.world);
   return options;
 }
 

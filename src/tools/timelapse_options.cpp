@@ -121,7 +121,7 @@ std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::str
   options.view.studio.surfaces = {options.place.surfaces};
   requireSensibleSheet(options);
   options.recipe = recipeOf(line, {kOfNoFrame, {"--path", "--calibration"}}, options.view.studio.world);
-  tellOfTimezone(line, options.place);
+  tellOfPlace(line, options.place, options.view.studio.world);
   return options;
 }
 

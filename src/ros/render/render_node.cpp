@@ -15,6 +15,8 @@
 #include "ros/conversions/images.h"
 #include "ros/render/input_log.h"
 #include "sunlit/ros/delivery.h"
+#include "sunlit/scene/world_site.h"
+#include "sunlit/studio/other_site.h"
 
 namespace sunlit::ros_interface {
 
@@ -212,6 +214,7 @@ void RenderNode::report(Step step) {
   if (wait_log_.report(wait)) activity_.say("waiting", wait.words);
   if (wait.empty() && activity_.latest().doing == "waiting") activity_.say("rendering");
   if (step != Step::kTook) return;
+  checkSite();
   drawMap();
   keepTiming();
   if (path_run_ == nullptr) return activity_.say("rendering");
@@ -242,6 +245,14 @@ void RenderNode::beginFolder() {
   files_->keepRasterizer(studio_.rasterizer());
   files_->keepGround(sky_.groundAlbedo());
   map_due_ = !files_->hasMap();
+}
+
+void RenderNode::checkSite() {
+  if (!std::exchange(site_due_, false)) return;
+  const std::optional<scene::WorldSite> world =
+      scene::siteOf(options_.world.name, options_.world.searchPath());
+  if (world && !streams_.isOver(*world))
+    ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME, "%s", studio::otherSiteText(*world).c_str());
 }
 
 /// While others look at the first picture: it takes seconds in which they would wait for it.

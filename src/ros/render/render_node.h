@@ -68,6 +68,8 @@ class RenderNode {
   /// Before the first pose, once all readers were heard: an evaluator that refuses its folder never is, and
   /// what the folder holds must then stay as it is.
   void beginFolder();
+  /// Warns where the sun is of another site than the world names. With the first picture, when it is known.
+  void checkSite();
   void drawMap();
   void finish();
   void reportLosses() const;
@@ -96,6 +98,7 @@ class RenderNode {
   bool paused_;
   std::optional<std::chrono::steady_clock::time_point> timing_kept_;  // when it was written last
   bool map_due_ = false;
+  bool site_due_ = true;
   bool has_begun_ = false;  // and may write into its folder
   bool finished_ = false;   // all is rendered
   std::vector<ros::ServiceServer> services_;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "ros/render/input_log.h"
+#include "sunlit/studio/other_site.h"
 
 namespace sunlit::ros_interface {
 
@@ -26,6 +27,10 @@ std::string skyPrefix(const Condition& condition, const StreamOptions& options) 
 /// As the parameter calls it.
 std::string modeOf(image::ExposureOptions exposure) {
   return fieldOf(fieldsOf(exposure), "mode").text();
+}
+
+studio::SkyBodies inSky(const SkyBodies& bodies) {
+  return {*bodies.sun, bodies.moon, bodies.map_from_celestial, bodies.site_elevation_m};
 }
 
 }  // namespace
@@ -126,8 +131,7 @@ const light::Illumination& Streams::lightOf(Stream& stream, const SkyBodies& bod
     const bool drifts = sky::moves(stream.weather) && stream.weather.clock_s != stamp.toSec();
     if (stream.light && shineAlike(stream.lit_by, bodies) && !drifts) return;
     stream.weather.clock_s = stamp.toSec();
-    const studio::SkyBodies in_sky{*bodies.sun, bodies.moon, bodies.map_from_celestial,
-                                   bodies.site_elevation_m};
+    const studio::SkyBodies in_sky = inSky(bodies);
     const std::size_t state = stream.setting.state;
     if (!sky_.isPrepared(in_sky.site_elevation_m, state))
       studio_.stopwatch().measure("load", "atmosphere",
@@ -159,6 +163,11 @@ Photograph Streams::view(const Shot& shot, const std::string& condition) {
   studio::Developed developed = studio_.photograph(lightOf(stream, *stream.sky.newest(), shot.stamp),
                                                    {shot.pose_index, stream.name}, stream.setting);
   return {shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
+}
+
+bool Streams::isOver(const scene::WorldSite& world) const {
+  const SkyBodies& bodies = *streams_.front()->sky.newest();
+  return bodies.time.utc && studio::isSkyOver(world, inSky(bodies), *bodies.time.utc);
 }
 
 std::string Streams::waitsForSky() const {

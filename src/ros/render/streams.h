@@ -14,6 +14,7 @@
 #include "ros/render/sky_input.h"
 #include "sunlit/image/exposure_lag.h"
 #include "sunlit/ros/conditions.h"
+#include "sunlit/scene/world_site.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
 
@@ -79,6 +80,8 @@ class Streams {
   const PoseOutput& poseOutput() const { return pose_output_; }
   /// Of the place of the first condition, m; only when every sky is there.
   double siteElevation() const { return streams_.front()->sky.newest()->site_elevation_m; }
+  /// Whether that place is `world`'s, as studio::isSkyOver() has it; no sun without a time is.
+  bool isOver(const scene::WorldSite& world) const;
   /// The condition of which nothing was heard yet, and what is missing, in words; empty if nothing is.
   std::string waitsForSky() const;
   /// What is missing before an image of that stamp can be taken; empty if nothing is.

@@ -120,10 +120,13 @@ class ExperimentRuns(unittest.TestCase):
         return world
 
     def test_what_the_world_has_amiss_is_said_once(self):
-        world = self.world_with("<scene><fog><type>linear</type></fog></scene>")
-        run = small_experiment(os.path.join(self.folder, "amiss"), world=world, poses=6)
-        self.assertEqual(run.end(), 0, run.said())
-        self.assertEqual(run.said().count("fog is a parameter of the weather"), 1, run.said())
+        site = "<latitude_deg>47.4</latitude_deg><longitude_deg>8.5</longitude_deg><elevation>400</elevation>"
+        world = self.world_with("<scene><fog><type>linear</type></fog></scene><spherical_coordinates>%s</spherical_coordinates>" % site)
+        for given, times in (({}, 1), ({"site": "[47.4, 8.5, 400]"}, 0)):
+            run = small_experiment(os.path.join(self.folder, "amiss%d" % times), world=world, poses=6, **given)
+            self.assertEqual(run.end(), 0, run.said())
+            self.assertEqual(run.said().count("fog is a parameter of the weather"), 1, run.said())
+            self.assertEqual(run.said().count("the sun is of another site"), times, run.said())
 
     def test_why_a_world_cannot_be_loaded_is_said_once(self):
         run = small_experiment(os.path.join(self.folder, "gone"), world=self.world_with("<include><uri>model://gone</uri></include>"))

@@ -1,9 +1,11 @@
 // What of SDF is not drawn, and not missed either.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sunlit/scene/world_site.h"
 #include "unit/scene/scene_files.h"
 #include "unit/scene/sdf_texts.h"
 
@@ -33,31 +35,43 @@ TEST_F(SdfLeftOut, ModelsThatAreMissingInWhatIsNotDrawnStopNothing) {
             std::string::npos);
 }
 
-TEST_F(SdfLeftOut, TheSiteOfAWorldIsNamedUnlessItIsNowhere) {
-  const auto at = [&](const std::string& latitude, const std::string& longitude, const std::string& heading) {
-    return boxWith("\n<spherical_coordinates><surface_model>EARTH_WGS84</surface_model><latitude_deg>" +
-                   latitude + "</latitude_deg><longitude_deg>" + longitude +
-                   "</longitude_deg><elevation>12</elevation>"
-                   "<heading_deg>" +
-                   heading + "</heading_deg></spherical_coordinates>")
+TEST_F(SdfLeftOut, TheHeadingOfAWorldIsNamed) {
+  const auto turnedTo = [&](const std::string& heading) {
+    return boxWith("\n<spherical_coordinates><latitude_deg>-33.7</latitude_deg><heading_deg>" + heading +
+                   "</heading_deg></spherical_coordinates>")
         .warnings;
   };
-  EXPECT_TRUE(at("0", "0.0", "0").empty());
-  EXPECT_TRUE(boxWith("<spherical_coordinates/>").warnings.empty());
-  const std::vector<std::string> named = at("-33.7244456", "150.67903", "90");
-  ASSERT_EQ(named.size(), 2u);
+  EXPECT_TRUE(turnedTo("0").empty());  // its site is a matter of siteOf()
+  EXPECT_EQ(turnedTo("1e-3").size(), 1u);
+  const std::vector<std::string> named = turnedTo("90");
+  ASSERT_EQ(named.size(), 1u);
   EXPECT_EQ(
       named[0],
       "1 worlds have <heading_deg>, which is not taken: here x points east, so that the sun stands on the "
       "wrong side by as much, unless the poses of models and path are turned: " +
           pathOf("test.world") + ":2: 90");
-  EXPECT_EQ(
-      named[1],
-      "1 worlds have <spherical_coordinates>, which are not taken: the site is a parameter: " +
-          pathOf("test.world") +
-          ":2: --site -33.7244456,150.67903,12, of launch files site:=\"[-33.7244456, 150.67903, 12]\"");
-  for (const auto& one : {at("1", "0", "0"), at("0", "-1", "0"), at("0", "0", "1e-3")})
-    EXPECT_EQ(one.size(), 1u);
+}
+
+TEST_F(SdfLeftOut, TheSiteOfAWorldIsThereUnlessItIsNowhere) {
+  const auto at = [&](const std::string& latitude, const std::string& longitude) {
+    boxWith("\n<spherical_coordinates><surface_model>EARTH_WGS84</surface_model><latitude_deg>" + latitude +
+            "</latitude_deg><longitude_deg>" + longitude +
+            "</longitude_deg><elevation>12</elevation></spherical_coordinates>");
+    return siteOf(pathOf("test.world"), {});
+  };
+  EXPECT_FALSE(at("0", "0.0"));
+  EXPECT_FALSE(at("nowhere", ""));
+  EXPECT_TRUE(at("1", "0"));
+  EXPECT_TRUE(at("0", "-1"));
+  const std::optional<WorldSite> named = at("-33.7244456", "150.67903");
+  ASSERT_TRUE(named);
+  EXPECT_DOUBLE_EQ(named->site.latitude.deg(), -33.7244456);
+  EXPECT_DOUBLE_EQ(named->site.longitude.deg(), 150.67903);
+  EXPECT_EQ(named->site.elevation_m, 12.0);
+  EXPECT_EQ(named->place, pathOf("test.world") + ":2");
+  boxWith("<spherical_coordinates/>");
+  EXPECT_FALSE(siteOf(pathOf("test.world"), {}));
+  EXPECT_FALSE(siteOf(kRaceTrack, {}));
 }
 
 }  // namespace
