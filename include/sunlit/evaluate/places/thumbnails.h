@@ -21,8 +21,9 @@ struct Thumbnail {
   int constant_patches = 0;  ///< with σ = 0: a black or burnt-out part of the picture
 };
 
-/// Of a grey picture of any size: resized by cv::INTER_AREA (the mean of what a pixel covers), rounded to 8
-/// bit. Throws std::invalid_argument unless it is CV_8UC1 and not empty.
+/// Of a grey picture of any size: each pixel is the mean of the area that it covers, to 1/65536 of a level,
+/// so that dark pictures keep their contrasts. Throws std::invalid_argument unless it is CV_8UC1 and not
+/// empty.
 Thumbnail makeThumbnail(const cv::Mat& grey);
 
 /// D: mean absolute difference over all pixels, in units of σ. Runs in parallel, to the same bits.

@@ -56,6 +56,36 @@ TEST(Thumbnail, IsTheMeanOfWhatItsPixelsCover) {
   EXPECT_EQ(cv::norm(makeThumbnail(large).values, makeThumbnail(small).values, cv::NORM_INF), 0.0);
 }
 
+TEST(Thumbnail, KeepsTheContrastsOfADarkPicture) {
+  // Pixels of 0 and 1 only, 128 to each of the thumbnail's: as many of 1 as the other has levels.
+  cv::Mat levels = noise(kThumbnailWidth, kThumbnailHeight, 4);
+  levels /= 2;
+  cv::Mat dark(16 * kThumbnailHeight, 8 * kThumbnailWidth, CV_8UC1);
+  for (int y = 0; y < dark.rows; ++y)
+    for (int x = 0; x < dark.cols; ++x)
+      dark.at<std::uint8_t>(y, x) = y % 16 * 8 + x % 8 < levels.at<std::uint8_t>(y / 16, x / 8) ? 1 : 0;
+  const Thumbnail thumbnail = makeThumbnail(dark);
+  EXPECT_EQ(cv::norm(thumbnail.values, makeThumbnail(levels).values, cv::NORM_INF), 0.0);
+  EXPECT_EQ(thumbnail.constant_patches, 0);
+}
+
+TEST(Thumbnail, CoversPartsOfPixels) {
+  const cv::Mat grey = noise(150, 77, 5);  // 2.34 by 2.41 to one of the thumbnail
+  cv::Mat as_float, small;
+  grey.convertTo(as_float, CV_32F);
+  cv::resize(as_float, small, {kThumbnailWidth, kThumbnailHeight}, 0, 0, cv::INTER_AREA);
+  const Thumbnail thumbnail = makeThumbnail(grey);
+  for (int y = 0; y < kThumbnailHeight; ++y) {
+    for (int x = 0; x < kThumbnailWidth; ++x) {
+      const cv::Mat patch = small(cv::Rect(x / 8 * 8, y / 8 * 8, 8, 8));
+      cv::Scalar mean, sigma;
+      cv::meanStdDev(patch, mean, sigma);
+      const double expected = (small.at<float>(y, x) - mean[0]) / (sigma[0] * std::sqrt(64.0 / 63.0));
+      ASSERT_NEAR(valueAt(thumbnail, x, y), expected, kHalfAStep + 1e-5) << x << ", " << y;
+    }
+  }
+}
+
 TEST(Thumbnail, IsMadeOfAPictureSmallerThanItToo) {
   EXPECT_EQ(makeThumbnail(noise(5, 3, 3)).values.size(), cv::Size(kThumbnailWidth, kThumbnailHeight));
 }
