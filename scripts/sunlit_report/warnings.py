@@ -38,6 +38,7 @@ def warnings(output):
     if outcome.get("whole") is False:
         found.append(f"The run is not whole: {_lacking(output.run, outcome)}. See counters and problems.")
     found += _unplaced(outcome)
+    found += _not_looked_for(outcome)
     frames = [row["reason"] for row in output.problems if row["kind"] == "other_frame"]
     return found + [f"Poses are of several frames: {reason}." for reason in frames[:1]]
 
@@ -58,6 +59,15 @@ def _unplaced(outcome):
         return []
     return [f"Depth tells the place of none of the features that {', '.join(names.difference(str(one)) for one in detectors)} found in "
             "the map, so that no query can be found by them: is it of the map's camera, in m or mm, and not 0?"]
+
+
+def _not_looked_for(outcome):
+    """They stand in no share, which may look the better for it."""
+    count = outcome.get("not_localised")
+    if not isinstance(count, int) or count <= 0:
+        return []
+    queries = "query was" if count == 1 else "queries were"
+    return [f"{count} {queries} not looked for, for want of a pose or camera_info: all shares are of the others. See problems."]
 
 
 def _compares_features(series):

@@ -313,6 +313,14 @@ class Files(InFolder):
             self.write("run.yaml", ["outcome: {whole: true, key_frames: 3, not_localised: 0, unplaced: %s}" % unplaced])
             self.assertEqual([line for line in warnings.warnings(self.read()) if "Depth" in line], expected)
 
+    def test_queries_that_were_not_looked_for_are_pointed_out(self):
+        self.write("frames.csv", made.frames())
+        for count, expected in (("0", []), ("~", []), ("1", ["1 query was"]), ("12", ["12 queries were"])):
+            self.write("run.yaml", ["outcome: {whole: true, key_frames: 3, not_localised: %s, unplaced: []}" % count])
+            self.assertEqual([line for line in warnings.warnings(self.read()) if "looked for" in line],
+                             [f"{who} not looked for, for want of a pose or camera_info: all shares are of the others. See problems."
+                              for who in expected])
+
     def test_summary_of_other_frames_is_pointed_out(self):
         self.write("frames.csv", made.frames(differences=["sift"], pairs=made.PAIRS[:1]))
         self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])
