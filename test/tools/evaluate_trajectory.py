@@ -170,7 +170,7 @@ class EvaluateTrajectory(unittest.TestCase):
         self.assertIn(self.path("map.yaml") + ": cannot be opened", self.evaluate(self.truth, "--map", self.folder).stderr)
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def write_bag(self, name, topics, spoil=lambda i, pose: None):
+    def write_bag(self, name, topics, spoil=lambda i, pose: None, frame_of=lambda i: ""):
         """`topics`: the class of the messages by topic; all tell of the bend, but for what `spoil` does to those of poses."""
         with rosbag.Bag(self.path(name), "w") as bag:
             paths = {topic: Path() for topic, kind in topics.items() if kind is Path}
@@ -178,7 +178,7 @@ class EvaluateTrajectory(unittest.TestCase):
                 stamp = rospy.Time.from_sec(t)
                 for topic, kind in topics.items():
                     message = PoseStamped() if kind is Path else kind()
-                    message.header.stamp = stamp
+                    message.header.stamp, message.header.frame_id = stamp, frame_of(i)
                     place = {PoseStamped: lambda: message.pose, Path: lambda: message.pose,
                              TransformStamped: lambda: message.transform}.get(kind, lambda: message.pose.pose)()
                     where, turn = (place.translation, place.rotation) if kind is TransformStamped else (
@@ -229,6 +229,15 @@ class EvaluateTrajectory(unittest.TestCase):
         self.assertRegex(done.stdout, "truth .* 47 poses, .* m" + re.escape(said))
         self.truth = self.write("late.txt", tum([(t + 100, x, y, z) for t, x, y, z in bend(50)]))
         self.assertTrue(self.evaluate(bag).stderr.endswith("; %s has 47 poses%s" % (bag, said)))
+
+    def test_poses_of_several_frames_in_one_topic_are_warned_of(self):
+        said = ("warning: poses of %s of %s are in the frame odom, others in map: errors mean nothing unless these are one frame\n")
+        for topic, kind in (("/odom", Odometry), ("/path", Path)):
+            bag = self.write_bag("run.bag", {topic: kind}, frame_of=lambda i: ["map", "/map", "", "odom"][i % 4])
+            done = self.evaluate(bag)
+            self.assertEqual((done.returncode, done.stderr, self.table()["ate"]["n"]), (0, said % (topic, bag), "50"))
+            done = run("evaluate_trajectory", "--truth", bag, "--estimate", self.truth, "--out", self.path("out"))
+            self.assertEqual((done.returncode, done.stderr), (0, said % (topic, bag)))
 
     def test_which_topic_of_a_bag_is_said_or_there_is_but_one(self):
         bag = self.write_bag("run.bag", {"/truth": PoseStamped, "/odom": Odometry})

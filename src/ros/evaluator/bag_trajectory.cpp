@@ -13,11 +13,13 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/received_images.h"
 #include "ros/conversions/time.h"
 #include "ros/evaluator/bag_topics.h"
+#include "ros/evaluator/pose_frames.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -142,9 +144,12 @@ Trajectory readBagTrajectory(const std::string& named, LeftOutPoses* left_out) {
   std::stable_sort(messages.begin(), messages.end(),
                    [](const PoseMessage& a, const PoseMessage& b) { return a.stamp_ns < b.stamp_ns; });
   Trajectory trajectory;
+  PoseFrames frames;
   for (const PoseMessage& message : messages) {
     const std::optional<StampedPose> pose = stampedPoseOf(message, topic, left_out);
     if (!pose) continue;
+    if (std::string warning = frames.note(message.frame, topic + " of " + chosen.bag); !warning.empty())
+      left_out->of_frames.push_back(std::move(warning));
     if (trajectory.empty() || pose->stamp_ns != trajectory.back().stamp_ns) {
       trajectory.push_back(*pose);
     } else {

@@ -22,11 +22,12 @@ struct PoseMessage {
 /// Throws std::runtime_error naming topic and type for another message.
 PoseMessage poseMessageOf(const rosbag::MessageInstance& instance);
 
-/// Poses that are there, but do not count.
+/// Poses that are there, but do not count, and what is doubtful about those that do.
 struct LeftOutPoses {
   std::vector<std::int64_t> repeated;  ///< stamps that one before has, ns
   std::size_t unusable = 0;            ///< not finite, or of a quaternion that is not of unit length
   std::string first_unusable;          ///< by topic and stamp, and why
+  std::vector<std::string> of_frames;  ///< lines that warn of each frame beside the first; its poses count
 };
 
 /// What a bag's topic says: a message a pose, as above, or the last nav_msgs/Path, which SLAM systems send

@@ -176,6 +176,9 @@ TrajectoryEvaluation evaluationOf(const Input& truth, const Input& estimate,
 void run(const Options& options) {
   const Input truth("truth", options.truth, options.takes_first_of_stamp);
   const Input estimate("estimate", options.estimate, options.takes_first_of_stamp);
+  for (const Input* input : {&truth, &estimate})
+    for (const std::string& warning : input->left_out.of_frames)
+      std::fprintf(stderr, "warning: %s\n", warning.c_str());
   std::optional<MapPicture> map;
   if (!options.map.empty()) map = readMapPicture(options.map);
   const TrajectoryEvaluation evaluation = evaluationOf(truth, estimate, options.evaluation);
