@@ -41,6 +41,13 @@ def distance_along(path):
     return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(path["x"]), np.diff(path["y"])))])
 
 
+def distance_driven(output):
+    """Metres from the first evaluated pose to the last: path.csv also has poses that were left out."""
+    evaluated = np.isin(output.path["pose"], output.poses)
+    along = distance_along(output.path)[evaluated]
+    return along[-1] - along[0] if len(along) else 0.0
+
+
 def _abscissa(output, poses):
     """A function from these poses to where they stand on the axis, and the axis' name."""
     known = output.path.get("pose")

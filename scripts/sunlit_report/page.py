@@ -89,7 +89,7 @@ def facts(output):
     if output.queries:
         found.append((f"{sum(len(one.pose) for one in output.queries.values())}", "queries of a map"))
     if output.path:
-        found.insert(1, (f"{figures.distance_along(output.path)[-1]:.0f} m", "driven"))
+        found.insert(1, (f"{figures.distance_driven(output):.0f} m", "driven"))
     return found
 
 

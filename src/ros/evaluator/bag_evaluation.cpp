@@ -214,7 +214,7 @@ int evaluateBags(const BagEvaluationOptions& options) {
   evaluate::Evaluation evaluation(options.evaluation, callbacks);
   if (source) source->feed(evaluation);
   const evaluate::Outcome outcome = evaluation.finish();
-  std::printf("%zu poses in %s\n%s%s\n", outcome.counts.completed_poses,
+  std::printf("%zu poses in %s\n%s%s\n", outcome.counts.evaluatedPoses(),
               options.evaluation.output_dir.c_str(), summaryTable(outcome.summary).c_str(),
               verifiedTable(outcome.verified).c_str());
   const std::string remarks = remarksOf(evaluation.options(), outcome.counts);

@@ -68,7 +68,7 @@ void EvaluatorDiagnostics::tell(WallUpdater::Status& status) {
     status.summary(Status::WARN, "nobody publishes " + truth + ", which " +
                                      std::to_string(counts.waiting_images) + " images wait for");
   } else {
-    status.summaryf(Status::OK, "%zu poses evaluated", counts.completed_poses);
+    status.summaryf(Status::OK, "%zu poses evaluated", counts.evaluatedPoses());
   }
 }
 

@@ -156,14 +156,14 @@ void EvaluatorNode::finish(const std::string& reason) {
     log_.update(options_.evaluation, evaluation_->counts());
     return isAskedToEnd();
   }));
-  Summary message = messageOf(outcome.summary, outcome.counts.completed_poses);
+  Summary message = messageOf(outcome.summary, outcome.counts.evaluatedPoses());
   message.header.stamp = ros::Time::now();
   summary_.publish(message);
   // A table of nothing would only hide the reason that stands above it.
   std::string table;
-  if (outcome.counts.completed_poses > 0)
+  if (outcome.counts.evaluatedPoses() > 0)
     table = "\n" + summaryTable(outcome.summary) + verifiedTable(outcome.verified);
-  ROS_INFO("%zu poses in %s%s", outcome.counts.completed_poses, options_.evaluation.output_dir.c_str(),
+  ROS_INFO("%zu poses in %s%s", outcome.counts.evaluatedPoses(), options_.evaluation.output_dir.c_str(),
            table.c_str());
   faults_ = faultsOf(evaluation_->options(), outcome);
   if (!faults_.empty()) ROS_ERROR("%s", faults_.c_str());

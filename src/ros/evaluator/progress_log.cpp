@@ -54,14 +54,14 @@ std::string tableOf(const std::string& title, const std::vector<Cell>& cells) {
 
 void ProgressLog::update(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts) {
   const ros::SteadyTime now = ros::SteadyTime::now();
-  if (!has_begun_ && counts.completed_poses > 0) {
+  const std::size_t done = counts.evaluatedPoses();
+  if (!has_begun_ && done > 0) {
     has_begun_ = true;
     first_progress_ = now;
-    first_completed_ = counts.completed_poses;
+    first_completed_ = done;
   }
   if ((now - last_line_).toSec() < kSecondsBetweenLines) return;
   last_line_ = now;
-  const std::size_t done = counts.completed_poses - counts.unexpected_poses;
   std::string line = "evaluated " + std::to_string(done);
   const std::size_t expected = options.poses.size();
   if (expected > 0) {

@@ -234,6 +234,7 @@ class TestLimits(unittest.TestCase):
         status, output = evaluator.wait()
         self.assertEqual(status, 3, output)
         self.assertIn('1 expected poses never came', output)
+        self.assertIn(': 2 poses in ', output)
         self.assertEqual([row['pose'] for row in self.problems('absent')], ['12'])
         self.assertEqual({(row['pose'], row['where']) for row in self.problems('unexpected')},
                          {('16', 'h04'), ('16', 'h12')})

@@ -895,6 +895,13 @@ class Page(InFolder):
         self.assertIn("6 of 24 conditions", html)
         self.assertEqual({pair for pair in output.shown_pairs if "h12" not in pair}, set())
 
+    def test_the_way_driven_is_from_the_first_evaluated_pose_to_the_last(self):
+        self.write("frames.csv", made.frames(differences=["sift"], pairs=made.PAIRS[:1]))
+        self.write("path.csv", [files.PATH] + [f"{pose},{pose}.0,{10 * pose},0,0,0" for pose in range(made.POSES + 20)])
+        self.assertIn((f"{10 * (made.POSES - 1)} m", "driven"), page.facts(self.read()))
+        self.write("path.csv", [files.PATH, "990,990.0,0,0,0,0", "991,991.0,5,0,0,0"])
+        self.assertIn(("0 m", "driven"), page.facts(self.read()))
+
     def test_the_same_folder_gives_the_same_bytes(self):
         made.write_all(self.folder)
         self.run_report(self.folder)

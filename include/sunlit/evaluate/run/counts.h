@@ -60,6 +60,9 @@ struct Counts {
   std::size_t bytes = 0;             ///< of what waits, as the memory limit counts them
   std::vector<std::size_t> awaited_streams;  ///< that the oldest waiting stamp lacks
   bool awaits_truth = false;  ///< it has all streams, but lacks the pose, depth or camera to localise by
+
+  /// Completed poses that were not left out as unexpected.
+  std::size_t evaluatedPoses() const { return completed_poses - unexpected_poses; }
 };
 
 }  // namespace sunlit::evaluate
