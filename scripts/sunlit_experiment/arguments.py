@@ -1,5 +1,6 @@
 """The arguments of our launch files: what was typed, what is wrong with it, and what it means."""
 
+import calendar
 import contextlib
 import datetime
 import difflib
@@ -155,6 +156,17 @@ def _clock_time(hour):
     return {"hour": seconds // 3600, "minute": seconds // 60 % 60, "second": float(seconds % 60)}
 
 
+def _a_date(instead):
+    """What is wanted in place of what is no date, and what is wrong where its form is right."""
+    form = re.fullmatch(r"([0-9]{4})-([0-9]{2})-[0-9]{2}", str(instead))
+    year, month = (int(part) for part in form.groups()) if form else (0, 0)
+    if year < 1:
+        return A_DATE
+    if not 1 <= month <= 12:
+        return f"{A_DATE}, with a month from 1 to 12"
+    return f"{A_DATE}, with a day from 1 to {calendar.monthrange(year, month)[1]} in month {month} of year {year}"
+
+
 def _on_its_day(name, differs, text):
     """What differs in a condition, its date told as year, month and day."""
     if DATE not in differs:
@@ -166,7 +178,7 @@ def _on_its_day(name, differs, text):
     try:  # YAML makes a date of most of them by itself
         day = day if type(day) is datetime.date else datetime.date.fromisoformat(day)  # pylint: disable=unidiomatic-typecheck
     except (TypeError, ValueError):
-        raise BadArgument("conditions", text, f"with {A_DATE}, in {name}") from None
+        raise BadArgument("conditions", text, f"with {_a_date(day)}, in {name}") from None
     return {**{key: value for key, value in differs.items() if key != DATE},
             "year": day.year, "month": day.month, "day": day.day}
 
@@ -301,7 +313,7 @@ def date_time(date, timezone):
     try:
         day = datetime.date.fromisoformat(date)
     except ValueError:
-        raise BadArgument("date", date, A_DATE) from None
+        raise BadArgument("date", date, _a_date(date)) from None
     allowed = "hours east of UTC, from -18 to 18"
     zone = parse("timezone", timezone, allowed)
     if not is_number(zone) or not -18 <= zone <= 18:

@@ -181,7 +181,12 @@ class Arguments(unittest.TestCase):
     def test_dates_and_places(self):
         self.assertEqual(arguments.date_time("2024-07-01", "3"),
                          {"year": 2024, "month": 7, "day": 1, "timezone": 3.0, "rate": 0.0})
-        self.assert_refused("argument date is '2024-02-31'", arguments.date_time, "2024-02-31", "3")
+        form = "argument date is '%s', but must be a date, year-month-day, such as 2024-07-01"
+        for wrong, more in (("2024-02-30", ", with a day from 1 to 29 in month 2 of year 2024"), ("2023-04-31", ", with a day from 1 to 30 in month "
+                            "4 of year 2023"), ("2024-13-01", ", with a month from 1 to 12"), ("0000-01-01", ""), ("noon", "")):
+            with self.assertRaises(arguments.BadArgument) as refused:
+                arguments.date_time(wrong, "3")
+            self.assertEqual(str(refused.exception), form % wrong + more)
         self.assert_refused("argument timezone is", arguments.date_time, "2024-07-01", "19")
         self.assertEqual(arguments.site("[55.5, 49, 90]"), {"latitude": 55.5, "longitude": 49.0, "elevation": 90.0})
         self.assert_refused("argument site is", arguments.site, "[55.5, 49]")
