@@ -13,4 +13,9 @@ namespace sunlit::scene {
 /// have such a twin one-sided, as pieces of their own.
 void partBackToBack(std::vector<MeshPart>& parts, SceneBuilder& builder);
 
+/// Takes out of `mesh` the triangles that stand back to back and look alike from either side: of the same
+/// normals, whichever way about, colours and, where `textured`, texture coordinates. Returns them: in the
+/// first half one of each pair, in the second the other. Those with tangents stay where `textured`.
+Mesh pairsFrom(Mesh& mesh, bool textured);
+
 }  // namespace sunlit::scene

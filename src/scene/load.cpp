@@ -37,7 +37,7 @@ Scene loadMeshFile(const std::string& file, const ResourceFinder& finder) {
   SceneBuilder builder(file);
   for (MeshPart& part : readMeshFile(file, UpAxis::kAsDeclared, finder, builder)) {
     leaveCoordinates(true, part);
-    builder.addMesh(part.mesh, part.file_from_node);
+    builder.addPiece(part.mesh, part.file_from_node);
   }
   Scene scene = builder.finish();
   for (std::string& warning : scene.warnings) warning = withoutPath(std::move(warning), file);

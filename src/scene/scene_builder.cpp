@@ -8,15 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/back_to_back.h"
 #include "scene/cofactors.h"
 #include "scene/color.h"
 #include "scene/mesh_directions.h"
 #include "scene/square_texels.h"
-#include "scene/texture_alpha.h"
-#include "scene/texture_looks.h"
 #include "sunlit/image/texture_files.h"
 #include "sunlit/scene/material_maps.h"
-#include "sunlit/scene/whole_texture.h"
 
 namespace sunlit::scene {
 namespace {
@@ -105,6 +103,19 @@ int SceneBuilder::oneSided(int material) {
   return one_sided_[material] = addMaterial(front, alpha_rules_[index], normals_rules_[index]);
 }
 
+int SceneBuilder::twoSided(int material) {
+  const auto index = static_cast<std::size_t>(material);
+  if (scene_.materials.at(index).double_sided) return material;
+  for (const auto& [both, front] : one_sided_) {
+    if (front == material) return both;
+  }
+  const auto known = two_sided_.find(material);
+  if (known != two_sided_.end()) return known->second;
+  Material both = scene_.materials[index];
+  both.double_sided = true;
+  return two_sided_[material] = addMaterial(both, alpha_rules_[index], normals_rules_[index]);
+}
+
 int SceneBuilder::veiled(int material, float opacity, Faces faces) {
   const auto index = static_cast<std::size_t>(material);
   Material veil = scene_.materials.at(index);
@@ -160,6 +171,31 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
   for (Eigen::Array3f& color : moved.colors) color = color.max(0.0f).min(1.0f);
   repairNormals(moved);
   scene_.meshes.push_back(std::move(moved));
+}
+
+bool SceneBuilder::hasMaps(int index) {
+  Material& material = scene_.materials[static_cast<std::size_t>(index)];
+  const auto maps = mapsOf(material);
+  return material.base_texture != Material::kNoTexture ||
+         std::any_of(maps.begin(), maps.end(), [](const TextureUse* map) { return map->given(); });
+}
+
+void SceneBuilder::addPiece(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh) {
+  const std::size_t before = meshCount();
+  addMesh(mesh, map_from_mesh);
+  if (meshCount() == before) return;
+  Mesh& added = scene_.meshes.back();
+  const auto index = static_cast<std::size_t>(added.material);
+  const bool whole = scene_.materials[index].alpha_mode == AlphaMode::kOpaque &&
+                     scene_.materials[index].glass <= 0.0f &&
+                     (alpha_rules_[index] == AlphaRule::kDeclared ||
+                      scene_.materials[index].base_texture == Material::kNoTexture);
+  if (whole) return;
+  Mesh pairs = pairsFrom(added, hasMaps(added.material));
+  if (pairs.triangles.empty()) return;
+  if (added.triangles.empty()) scene_.meshes.pop_back();
+  pairs_.push_back(meshCount());
+  scene_.meshes.push_back(std::move(pairs));
 }
 
 void SceneBuilder::repairCoordinates(std::vector<Eigen::Vector2f>& coordinates) {
@@ -289,77 +325,12 @@ void SceneBuilder::forgetTexture(int texture) {
   }
 }
 
-void SceneBuilder::settleAlpha() {
-  std::vector<AlphaMeans> means(scene_.textures.size());
-  for (std::size_t i = 0; i < means.size(); ++i) means[i] = meaningOf(scene_.textures[i]);
-  for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-    Material& material = scene_.materials[i];
-    const bool textured = material.base_texture != Material::kNoTexture;
-    if (material.alpha_mode == AlphaMode::kBlend) {
-      const bool whole =
-          !textured || isWhole(scene_.textures[static_cast<std::size_t>(material.base_texture)]);
-      if (whole && material.alpha >= 1.0f) material.alpha_mode = AlphaMode::kOpaque;
-    } else if (alpha_rules_[i] == AlphaRule::kFromTexture && textured) {
-      const auto texture = static_cast<std::size_t>(material.base_texture);
-      const std::string name = material.name + ": " + scene_.textures[texture].name + ", whose alpha is ";
-      if (means[texture] == AlphaMeans::kCutOut) {
-        material.alpha_mode = AlphaMode::kMask;
-      } else if (means[texture] == AlphaMeans::kVeil) {
-        material.alpha_mode = AlphaMode::kBlend;
-        warn(kNotRendered,
-             name + "below one half all over: what lies behind shows through instead of nothing");
-      } else if (means[texture] == AlphaMeans::kAccident) {
-        warn(kNotRendered, name + "0 all over: drawn as opaque");
-      }
-    }
-  }
-}
-
-void SceneBuilder::dropHeights() {
-  for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-    Material& material = scene_.materials[i];
-    if (!material.normal_map.given()) continue;
-    const auto texture = static_cast<std::size_t>(material.normal_map.texture);
-    const bool shared =
-        material.base_texture != Material::kNoTexture &&
-        sources_[static_cast<std::size_t>(material.base_texture)].name == sources_[texture].name;
-    const bool doubtful = normals_rules_[i] == NormalsRule::kMaybeHeights;
-    if (!isGrey(scene_.textures[texture]) &&
-        !(doubtful && (shared || !leansLittle(scene_.textures[texture]))))
-      continue;
-    warn(kNotRendered, material.name + ": a bump map, " + sources_[texture].name + ": without it");
-    material.normal_map = TextureUse();
-  }
-}
-
-/// Without coordinates all of a mesh would have the colour of a corner of its picture.
-void SceneBuilder::paintByMeans() {
-  std::map<int, int> painted;  // materials without their picture
-  for (Mesh& mesh : scene_.meshes) {
-    const auto index = static_cast<std::size_t>(mesh.material);
-    const int texture = scene_.materials[index].base_texture;
-    if (texture == Material::kNoTexture || !mesh.texture_coordinates.empty()) continue;
-    warn("meshes have no texture coordinates, the mean colour of their picture is on them",
-         mesh.name + ": " + sources_[static_cast<std::size_t>(texture)].name);
-    const auto [known, is_new] = painted.try_emplace(mesh.material);
-    if (is_new) {
-      const Eigen::Array4f mean = meanOf(scene_.textures[static_cast<std::size_t>(texture)]);
-      Material plain = scene_.materials[index];
-      plain.base_texture = Material::kNoTexture;
-      plain.base_color.value *= mean.head<3>();
-      if (plain.alpha_mode == AlphaMode::kMask) plain.alpha_mode = AlphaMode::kOpaque;
-      plain.alpha *= mean[3];
-      known->second = addMaterial(plain, AlphaRule::kDeclared);
-    }
-    mesh.material = known->second;
-  }
-}
-
 Scene SceneBuilder::finish() {
   decodeTextures();
   dropHeights();
   settleAlpha();
   paintByMeans();
+  joinPairs();
   for (const auto& [what, kind] : kinds_) {
     std::string line = std::to_string(kind.times) + " " + what;
     for (std::size_t i = 0; i < kind.examples.size(); ++i) line += (i == 0 ? ": " : "; ") + kind.examples[i];

@@ -76,6 +76,8 @@ class SceneBuilder {
   int addMaterial(const Material& material, AlphaRule alpha, NormalsRule normals = NormalsRule::kDeclared);
   /// The same, but invisible from behind; the same one each time.
   int oneSided(int material);
+  /// The same, but to be seen from either side; the same one each time.
+  int twoSided(int material);
   enum class Faces { kOne, kTwo };  ///< that a ray meets on its way through a shape
   /// The same, but there by a share of `opacity`, 0 … 1, of all faces of a shape together; the same one each
   /// time for the same. Glass stays as clear as it is.
@@ -85,6 +87,10 @@ class SceneBuilder {
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
   /// Throws as TriangleBudget::take().
   void addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh);
+  /// The same of a piece of a file. Where something is to be seen through it, a triangle that another stands
+  /// back to back with and looks like (pairsFrom()) becomes one of two sides with it: light crosses one
+  /// sheet.
+  void addPiece(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh);
 
   /// Not one that is too far away, which is counted for a warning of finish().
   void addLamp(Lamp lamp);
@@ -135,6 +141,8 @@ class SceneBuilder {
   void settleAlpha();
   void dropHeights();
   void paintByMeans();
+  bool hasMaps(int material);
+  void joinPairs();
 
   Scene scene_;
   TriangleBudget budget_;
@@ -143,6 +151,8 @@ class SceneBuilder {
   std::vector<AlphaRule> alpha_rules_;                         ///< of each material
   std::vector<NormalsRule> normals_rules_;                     ///< of each material
   std::map<int, int> one_sided_;                               ///< of materials that are not
+  std::map<int, int> two_sided_;                               ///< of materials that are not
+  std::vector<std::size_t> pairs_;                             ///< meshes from pairsFrom()
   std::map<std::tuple<int, float, Faces>, int> veiled_;        ///< by material, opacity and faces
   std::map<std::string, Kind> kinds_;
 };

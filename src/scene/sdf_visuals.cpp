@@ -241,7 +241,7 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& 
     leaveCoordinates(!material, part);
     if (material) materials_.put(*material, part.mesh);
     part.mesh.material = builder_.veiled(part.mesh.material, opacity, SceneBuilder::Faces::kOne);
-    builder_.addMesh(part.mesh, map_from_file * part.file_from_node);
+    builder_.addPiece(part.mesh, map_from_file * part.file_from_node);
   }
 }
 

@@ -166,7 +166,7 @@ void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, cons
     } else if (use.own_material && use.is_of_gazebo) {
       builder_.warn(kNotRendered, gazeboMaterialOf(place) + ", whose mesh has its own: without it");
     }
-    builder_.addMesh(part.mesh, link_from_file * part.file_from_node);
+    builder_.addPiece(part.mesh, link_from_file * part.file_from_node);
   }
 }
 

@@ -265,23 +265,6 @@ TEST_F(ObjLooks, WhatOptionsSayOfPicturesIsNamed) {
   EXPECT_EQ(lookOf("map_Kd -cc off -clamp on t.png\n").textures.size(), 1u);
 }
 
-// As SketchUp writes walls; drawn from both sides, either would flicker through the other.
-TEST_F(ObjLooks, FacesBackToBackAreOneSided) {
-  write("m.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
-  const std::string points = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
-  const Scene scene = load(write("w.obj", points + "usemtl a\nf 1 2 3\nf 1 2 4\nusemtl b\nf 2 1 3\n"), {});
-  ASSERT_EQ(scene.meshes.size(), 3u);
-  EXPECT_EQ(scene.triangleCount(), 3u);
-  for (const Mesh& mesh : scene.meshes) {
-    ASSERT_EQ(mesh.triangles.size(), 1u);
-    const bool lone = boundsOf(mesh).max().z() > 0.0f;
-    EXPECT_EQ(scene.materials[static_cast<std::size_t>(mesh.material)].double_sided, lone);
-  }
-  // The same way round is no back.
-  const Scene twice = load(write("w.obj", points + "usemtl a\nf 1 2 3\nusemtl b\nf 2 3 1\n"), {});
-  for (const Material& material : twice.materials) EXPECT_TRUE(material.double_sided) << material.name;
-}
-
 // Assimp writes to the material before the first, which is none.
 TEST_F(ObjLooks, AreRefusedWhereWordsStandBeforeTheFirstMaterial) {
   const std::string object = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

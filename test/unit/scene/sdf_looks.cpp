@@ -254,6 +254,23 @@ TEST_F(SdfLook, TransparentVisualsAreSeenThrough) {
   EXPECT_EQ(look(loaded("", "<transparency>0</transparency>", box)).alpha_mode, AlphaMode::kOpaque);
 }
 
+TEST_F(SdfLook, ATransparentSheetOfTwoSidesIsOne) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+  write("t.obj", points + "f 3 2 1 4\n");
+  const std::string mesh = "<mesh><uri>t.obj</uri></mesh>";
+  for (const std::string material : {"", "<material><diffuse>1 0 0 1</diffuse></material>"}) {
+    const Scene scene = loaded(material, "<transparency>0.5</transparency>", mesh);
+    EXPECT_EQ(scene.triangleCount(), 2u) << material;
+    EXPECT_TRUE(look(scene).double_sided) << material;
+    EXPECT_EQ(look(scene).alpha, 0.5f);
+    EXPECT_EQ(loaded(material, "", mesh).triangleCount(), 4u) << material;
+  }
+  // Each of its faces has a share of what all of a shape of SDF covers.
+  const std::string flat = "<box><size>1 1 0</size></box>";
+  EXPECT_EQ(loaded("", "<transparency>0.5</transparency>", flat).triangleCount(),
+            loaded("", "", flat).triangleCount());
+}
+
 TEST_F(SdfLook, AMaterialIsOpaqueInOneVisualAndNotInAnother) {
   const Scene scene = loaded("<material><diffuse>1 0 0 1</diffuse></material>",
                              "<geometry><box><size>1 1 1</size></box></geometry></visual><visual name='w'>"
