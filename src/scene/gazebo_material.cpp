@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <sstream>
 #include <utility>
@@ -173,6 +174,9 @@ bool multiplies(const Words& words) {
          (other == "src_current" || other == "src_diffuse");
 }
 
+/// A texture unit: its pass, and its place in that, from 0.
+using Unit = std::pair<int, int>;
+
 /// A material on the way, and in which of its passes and texture units.
 struct Reading {
   ScriptMaterial material;
@@ -182,6 +186,8 @@ struct Reading {
   std::optional<int> diffuse_pass = std::nullopt;  ///< that of the diffuse colour
   std::set<int> texture_passes = {};               ///< those with the texture
   std::set<int> plain_passes = {};                 ///< those whose texture no diffuse colour multiplies
+  std::vector<std::pair<Unit, std::string>> textures = {};
+  std::set<Unit> normal_maps = {};  ///< of shaders
 
   /// Where a parent gives one of the two, it is of the same pass.
   bool tints() const {
@@ -208,15 +214,33 @@ void readPass(const Words& words, Reading& reading) {
   }
 }
 
-/// The first texture; others are named.
-void readTexture(const Words& words, Reading& reading) {
-  if (words.size() < 2) return;
+/// OGRE's `param_named NAME TYPE VALUE` of a shader, which may stand before or behind what it is about.
+void readParameter(const Words& words, Reading& reading) {
+  if (words.size() < 4) return;
+  std::string name = words[1];
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto says = [&](const char* word) { return name.find(word) != std::string::npos; };
+  const std::optional<float> unit = words[2] == "int" ? numberOf(words[3]) : std::nullopt;
+  if (unit && (says("bump") || says("normal")))
+    reading.normal_maps.insert({reading.passes, static_cast<int>(*unit)});
+  if (says("color") || says("colour")) reading.material.lost.insert(words[1] + ", a colour of a shader");
+}
+
+/// The first texture that is a colour; others are named.
+void takeTextures(Reading& reading) {
   std::optional<std::string>& texture = reading.material.texture;
-  if (!texture) texture = words[1];
-  if (words[1] == *texture)
-    reading.texture_passes.insert(reading.passes);
-  else
-    reading.material.lost.insert("texture " + words[1]);
+  for (const auto& [unit, name] : reading.textures) {
+    if (reading.normal_maps.count(unit) > 0) {
+      reading.material.lost.insert("texture " + name + ", a normal map of a shader");
+      if (unit == reading.textures.front().first) reading.material.texture_scale.reset();
+      continue;
+    }
+    if (!texture) texture = name;
+    if (name == *texture)
+      reading.texture_passes.insert(unit.first);
+    else
+      reading.material.lost.insert("texture " + name);
+  }
 }
 
 /// One line, or several written as one: a keyword may follow a brace.
@@ -249,7 +273,9 @@ void readLine(const Words& line, Reading& reading) {
       material.blends |= by_alpha;
       if (!by_alpha) material.lost.insert(words[0]);
     }
-    if (words[0] == "texture") readTexture(words, reading);
+    if (words[0] == "texture" && words.size() > 1)
+      reading.textures.push_back({{reading.passes, reading.units_of_pass - 1}, words[1]});
+    if (words[0] == "param_named") readParameter(words, reading);
     if (words[0] == "alpha_rejection" && words.size() > 1 && words[1] != "always_pass")
       material.alpha_rejection = true;
     if (words[0] == "emissive" && !material.emissive) material.emissive = colorOf(words);
@@ -316,6 +342,7 @@ std::optional<ScriptMaterial> materialIn(const Script& script, std::size_t end, 
     for (const std::string& word : words) depth += word == "{" ? 1 : word == "}" ? -1 : 0;
   }
   if (!reading) return std::nullopt;
+  takeTextures(*reading);
   reading->material.tints = reading->tints();
   if (parent) inherit(*parent, &reading->material);
   return reading->material;

@@ -90,6 +90,30 @@ TEST(GazeboMaterial, ReadsHowLargeItsFirstTextureIs) {
   }
 }
 
+TEST(GazeboMaterial, ANormalMapOfAShaderIsNoColour) {
+  const std::string shader =
+      "fragment_program_ref Waves {\n param_named deepColor float4 0 0.05 0.2 1\n param_named BumpMap int "
+      "0\n "
+      "param_named cubeMap int 1\n }\n";
+  const std::string bumps = "texture_unit {\n texture bumps.dds\n scale 0.1 0.1\n }\n";
+  const auto of = [](const std::string& pass) {
+    return parseMaterialScript("material A { technique { pass {\n" + pass + "} } }\n", "A").value();
+  };
+  for (const ScriptMaterial& waves : {of(shader + bumps), of(bumps + shader)}) {
+    EXPECT_FALSE(waves.texture);
+    EXPECT_FALSE(waves.texture_scale);
+    EXPECT_FALSE(waves.diffuse);
+    EXPECT_EQ(waves.lost, (std::set<std::string>{"deepColor, a colour of a shader", "fragment_program_ref",
+                                                 "texture bumps.dds, a normal map of a shader"}));
+  }
+  const ScriptMaterial painted =
+      of("diffuse 1 0 0\n" + shader + bumps + "texture_unit {\n texture a.png\n }\n");
+  EXPECT_EQ(painted.texture, "a.png");
+  EXPECT_EQ(painted.diffuse->value[0], 1.0f);
+  EXPECT_TRUE(painted.tints);
+  EXPECT_EQ(of(bumps).texture, "bumps.dds");  // which nothing tells
+}
+
 TEST(GazeboMaterial, InheritsWhatItDoesNotSet) {
   const auto sand = parseMaterialScript(kScript, "Sand");
   ASSERT_TRUE(sand && sand->texture && sand->diffuse);
