@@ -150,11 +150,11 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
   for (const auto& triangle : moved.triangles) {
     const double area = faceVector(moved, triangle).norm();
     if (!std::isfinite(area)) {
-      count("triangles with coordinates that are not finite were left out");
+      count("triangles with coordinates that are not finite were left out", mesh.name);
     } else if (isFar(moved, triangle)) {
       warn("meshes reach farther than 100 km from the origin, what of them does was left out", mesh.name);
     } else if (area < kNoArea_m2) {
-      count("triangles without area were left out");
+      count("triangles without area were left out", mesh.name);
     } else {
       kept.push_back(mirrored ? std::array<std::uint32_t, 3>{triangle[0], triangle[2], triangle[1]}
                               : triangle);
@@ -166,8 +166,8 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
     // Of a vertex that no triangle uses any more.
     if (!(position.array().abs() <= kFarthest_m).all()) position.setZero();
   }
-  repairCoordinates(moved.texture_coordinates);
-  for (auto& coordinates : moved.more_texture_coordinates) repairCoordinates(coordinates);
+  repairCoordinates(mesh.name, moved.texture_coordinates);
+  for (auto& coordinates : moved.more_texture_coordinates) repairCoordinates(mesh.name, coordinates);
   for (Eigen::Array3f& color : moved.colors) color = color.max(0.0f).min(1.0f);
   repairNormals(moved);
   scene_.meshes.push_back(std::move(moved));
@@ -198,14 +198,14 @@ void SceneBuilder::addPiece(const Mesh& mesh, const Eigen::Affine3d& map_from_me
   scene_.meshes.push_back(std::move(pairs));
 }
 
-void SceneBuilder::repairCoordinates(std::vector<Eigen::Vector2f>& coordinates) {
+void SceneBuilder::repairCoordinates(const std::string& mesh, std::vector<Eigen::Vector2f>& coordinates) {
   for (Eigen::Vector2f& coordinate : coordinates) {
     if (!coordinate.allFinite()) {
       coordinate.setZero();
-      count("texture coordinates that are not finite were set to 0");
+      count("texture coordinates that are not finite were set to 0", mesh);
     } else if (!(coordinate.array().abs() <= kLargestTextureCoordinate).all()) {
       coordinate.setZero();
-      count("texture coordinates outside -1e6 … 1e6 were set to 0");
+      count("texture coordinates outside -1e6 … 1e6 were set to 0", mesh);
     }
   }
 }
@@ -244,10 +244,14 @@ void SceneBuilder::warn(const std::string& line) {
 }
 
 void SceneBuilder::warn(const std::string& what, const std::string& where) {
+  if (kinds_[what].known.count(where) == 0) count(what, where);
+}
+
+void SceneBuilder::count(const std::string& what, const std::string& where) {
   Kind& kind = kinds_[what];
-  if (!kind.known.insert(where).second) return;
   ++kind.times;
-  if (kind.examples.size() < kExamples) kind.examples.push_back(where);
+  const bool is_new = !where.empty() && kind.known.insert(where).second;
+  if (is_new && kind.examples.size() < kExamples) kind.examples.push_back(where);
 }
 
 SceneBuilder::Decoded SceneBuilder::decoded(const TextureSource& source) {
@@ -334,7 +338,7 @@ Scene SceneBuilder::finish() {
   for (const auto& [what, kind] : kinds_) {
     std::string line = std::to_string(kind.times) + " " + what;
     for (std::size_t i = 0; i < kind.examples.size(); ++i) line += (i == 0 ? ": " : "; ") + kind.examples[i];
-    if (!kind.examples.empty() && kind.examples.size() < kind.times) line += "; …";
+    if (kind.examples.size() < kind.known.size()) line += "; …";
     warn(line);
   }
   try {

@@ -104,8 +104,8 @@ class SceneBuilder {
   /// once. `what` is in the plural and says what was made of it: "textures are missing, a neutral grey takes
   /// their place".
   void warn(const std::string& what, const std::string& where);
-  /// The same where no example would tell more: "<count> <what>".
-  void count(const std::string& what, std::size_t times = 1) { kinds_[what].times += times; }
+  /// The same where equal ones count each; "<count> <what>" where none is named.
+  void count(const std::string& what, const std::string& where = "");
 
   /// Decodes the textures, settles the cut-outs and checks the scene. A texture with a side of more than
   /// kLongestTextureSide is scaled down, one that cannot be decoded makes room for a neutral grey, and a
@@ -135,7 +135,7 @@ class SceneBuilder {
   };
   int addTexture(const std::string& key, TextureSource source);
   static Decoded decoded(const TextureSource& source);
-  void repairCoordinates(std::vector<Eigen::Vector2f>& coordinates);
+  void repairCoordinates(const std::string& mesh, std::vector<Eigen::Vector2f>& coordinates);
   void decodeTextures();
   void forgetTexture(int texture);
   void settleAlpha();

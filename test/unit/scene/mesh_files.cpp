@@ -405,19 +405,22 @@ TEST_F(MeshFile, ReflectionOfColladaIsNamedWhereItIsAny) {
 }
 
 TEST_F(MeshFile, BrokenTrianglesAreLeftOutAndCounted) {
-  const Scene scene =
-      load(write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"), {});
+  const Scene scene = load(
+      write("b.obj",
+            "o wall\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 2 1 4\nf 1 2 5\n"),
+      {});
   EXPECT_EQ(scene.triangleCount(), 1u);
   ASSERT_EQ(scene.warnings.size(), 2u);
-  EXPECT_EQ(scene.warnings[0], "1 triangles with coordinates that are not finite were left out");
-  EXPECT_EQ(scene.warnings[1], "1 triangles without area were left out");
+  EXPECT_EQ(scene.warnings[0], "1 triangles with coordinates that are not finite were left out: wall");
+  EXPECT_EQ(scene.warnings[1], "2 triangles without area were left out: wall");
 }
 
 TEST_F(MeshFile, TextureCoordinatesOutOfAllRangeAreSetToZeroAndCounted) {
-  const Scene scene =
-      load(write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e12 0\nvt 0 0.5\nvt 0 -2e6\nf 1/1 2/2 3/3\n"), {});
+  const Scene scene = load(
+      write("b.obj", "o wall\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e12 0\nvt 0 0.5\nvt 0 -2e6\nf 1/1 2/2 3/3\n"),
+      {});
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(scene.warnings[0], "2 texture coordinates outside -1e6 … 1e6 were set to 0");
+  EXPECT_EQ(scene.warnings[0], "2 texture coordinates outside -1e6 … 1e6 were set to 0: wall");
   EXPECT_NO_THROW(validate(scene));
 }
 
