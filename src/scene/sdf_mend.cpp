@@ -296,6 +296,15 @@ class Mender {
   Words referenced_;
 };
 
+/// A state has them among its models.
+void leaveOutActors(XMLElement& world, XMLElement& state) {
+  std::set<std::string> actors;
+  for (const XMLElement* actor : childrenOf(world, "actor")) actors.insert(attributeOf(*actor, "name"));
+  for (XMLElement* model : childrenOf(state, "model")) {
+    if (actors.count(attributeOf(*model, "name")) > 0) state.DeleteChild(model);
+  }
+}
+
 }  // namespace
 
 bool isTakenOut(const XMLElement& element, const XMLElement& sdf) {
@@ -338,6 +347,7 @@ std::unique_ptr<tinyxml2::XMLDocument> takeState(XMLElement& sdf) {
         }
         taken = std::make_unique<tinyxml2::XMLDocument>();
         taken->InsertEndChild(state->DeepClone(taken.get()));
+        leaveOutActors(*world, *taken->FirstChildElement());
       }
       world->DeleteChild(state);
     }

@@ -1,6 +1,5 @@
 #include "scene/sdf_state.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ignition/math/Pose3.hh>
@@ -83,10 +82,12 @@ Eigen::Vector3d SdfState::scaleOf(const std::string& model) const {
   return found == scales_.end() ? Eigen::Vector3d::Ones() : found->second;
 }
 
-std::size_t SdfState::unknownModels() const {
-  return static_cast<std::size_t>(std::count_if(entries_.begin(), entries_.end(), [&](const auto& entry) {
-    return entry.second.is_model && asked_.count(entry.first) == 0;
-  }));
+std::vector<std::string> SdfState::unknownModels() const {
+  std::vector<std::string> unknown;
+  for (const auto& [name, entry] : entries_) {
+    if (entry.is_model && asked_.count(name) == 0) unknown.push_back(name);
+  }
+  return unknown;
 }
 
 }  // namespace sunlit::scene

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace sunlit::scene {
 
@@ -27,7 +28,7 @@ class SdfState {
   Eigen::Vector3d scaleOf(const std::string& model) const;
   bool isDeleted(const std::string& model) const { return deleted_.count(model) > 0; }
   /// Models of the state that mapFrom() was never asked for: the world has no such model.
-  std::size_t unknownModels() const;
+  std::vector<std::string> unknownModels() const;
 
  private:
   void readModel(const tinyxml2::XMLElement& model, const std::string& scope);

@@ -25,8 +25,8 @@ Scene loadSdf(const std::string& file, const ResourceFinder& finder) {
       visuals.addLight(light, Eigen::Affine3d::Identity(), {light.Name(), light.Name()});
     }
   }
-  const std::size_t unknown = visuals.state().unknownModels();
-  if (unknown > 0) builder.count("models of the <state> are not in the world", unknown);
+  for (const std::string& model : visuals.state().unknownModels())
+    builder.warn("models of the <state> are not in the world", model);
   Scene scene = builder.finish();
   if (scene.meshes.empty())
     throw std::runtime_error(file + ": there is nothing to see in this file" + reasonsOf(scene.warnings));

@@ -378,8 +378,12 @@ TEST_F(Sdf, ABrokenPoseOfAStateIsNamed) {
 
 TEST_F(Sdf, ModelsOfAStateThatAreNotThereAreNamed) {
   const Scene scene = loaded(world("<model name='m'><link name='l'>" + boxVisual() + "</link></model>" +
-                                   state("<model name='other'><pose>0 0 0 0 0 0</pose></model>")));
-  EXPECT_EQ(scene.warnings, (std::vector<std::string>{"1 models of the <state> are not in the world"}));
+                                   "<actor name='walker'/>" +
+                                   state("<model name='other'><pose>0 0 0 0 0 0</pose></model>"
+                                         "<model name='walker'><pose>0 0 0 0 0 0</pose></model>")));
+  ASSERT_EQ(scene.warnings.size(), 2u);
+  EXPECT_NE(scene.warnings[0].find("kinds that are not drawn: <actor>"), std::string::npos);
+  EXPECT_EQ(scene.warnings[1], "1 models of the <state> are not in the world: other");
 }
 
 }  // namespace
