@@ -212,10 +212,10 @@ int SdfVisuals::bareRoad() {
 void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& map_from_visual,
                               const std::string& name, float opacity) {
   const sdf::Mesh& mesh = *visual.Geom()->MeshShape();
-  const std::optional<int> material = materials_.add(visual.Material());
   const std::string& from = mesh.FilePath().empty() ? file_ : mesh.FilePath();
   const std::vector<MeshPart>* all = meshes_.partsOf(mesh.Uri(), from, from + ": visual " + name);
   if (all == nullptr) return;
+  const std::optional<int> material = materials_.add(visual.Material());
   std::vector<MeshPart> parts;
   for (const MeshPart& part : *all) {
     const bool wanted =

@@ -69,9 +69,14 @@ void UrdfVisuals::addVisual(const urdf::Visual& visual, const std::string& name,
     builder_.warn("visuals were left out, they are wholly transparent", place);
     return;
   }
+  if (!visual.geometry) throw std::runtime_error(place + ": it has no geometry");
+  if (visual.geometry->type == urdf::Geometry::MESH) {
+    const auto& mesh = static_cast<const urdf::Mesh&>(*visual.geometry);
+    // Of one that is missing no material is looked for.
+    if (meshes_.partsOf(mesh.filename, origin_, place) == nullptr) return;
+  }
   const std::optional<int> own_material = material(visual, place);
   const Eigen::Isometry3d link_from_visual = toEigen(visual.origin);
-  if (!visual.geometry) throw std::runtime_error(place + ": it has no geometry");
   if (visual.geometry->type == urdf::Geometry::MESH) {
     addMeshShape(static_cast<const urdf::Mesh&>(*visual.geometry),
                  {own_material, visual.material == nullptr, opacity, link_from_visual}, name, place);

@@ -39,6 +39,28 @@ TEST_F(SdfLeftOut, TheHeadingOfAWorldIsNamed) {
   const auto turnedTo = [&](const std::string& heading) {
     return boxWith("\n<spherical_coordinates><latitude_deg>-33.7</latitude_deg><heading_deg>" + heading +
                    "</heading_deg></spherical_coordinates>")
+TEST_F(SdfLeftOut, TexturesOfAMeshThatIsMissingAreNotLookedFor) {
+  SearchPath lenient;
+  lenient.missing = Missing::kWarn;
+  const std::string mesh = "<geometry><mesh><uri>gone.dae</uri></mesh></geometry>";
+  const std::string texture =
+      "<material><pbr><metal><albedo_map>gone.png</albedo_map></metal></pbr></material>";
+  const std::string visual = "<visual name='v'>" + mesh + texture + "</visual>";
+  const Scene scene = load(write("test.world", world("<model name='m'><link name='l'>" + boxVisual() +
+                                                     "</link><link name='n'>" + visual + "</link></model>")),
+                           lenient);
+  ASSERT_EQ(scene.warnings.size(), 1u) << scene.warnings[1];
+  EXPECT_EQ(scene.warnings[0].find("1 meshes are missing and were left out: gone.dae"), 0u)
+      << scene.warnings[0];
+}
+
+TEST_F(SdfLeftOut, TheSiteOfAWorldIsNamedUnlessItIsNowhere) {
+  const auto at = [&](const std::string& latitude, const std::string& longitude, const std::string& heading) {
+    return boxWith("\n<spherical_coordinates><surface_model>EARTH_WGS84</surface_model><latitude_deg>" +
+                   latitude + "</latitude_deg><longitude_deg>" + longitude +
+                   "</longitude_deg><elevation>12</elevation>"
+                   "<heading_deg>" +
+                   heading + "</heading_deg></spherical_coordinates>")
         .warnings;
   };
   EXPECT_TRUE(turnedTo("0").empty());  // its site is a matter of siteOf()
