@@ -134,7 +134,7 @@ void SdfMaterials::nameLost(const sdf::Material& source, const std::string& name
   if (!source.NormalMap().empty()) lost("the normal map of its <shader>: without it");
 }
 
-std::optional<int> SdfMaterials::add(const sdf::Material* source) {
+std::optional<int> SdfMaterials::add(const sdf::Material* source, const std::string& user) {
   const sdf::ElementPtr element = source != nullptr ? source->Element() : nullptr;
   if (!element) return std::nullopt;
   const bool plain = element->HasElement("diffuse") || element->HasElement("ambient");
@@ -161,7 +161,7 @@ std::optional<int> SdfMaterials::add(const sdf::Material* source) {
                       "<diffuse> beside script " + material.name + ", which has a texture: without it");
     }
   } else {
-    material.name = "plain";
+    material.name = user;
     // Ambient alone is how some files give a colour; the light around is computed here, not given by the
     // material.
     material.base_color = toLinear(element->HasElement("diffuse") ? source->Diffuse() : source->Ambient());

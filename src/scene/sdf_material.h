@@ -22,8 +22,8 @@ class SdfMaterials {
       : finder_(finder), builder_(builder), scripts_(finder) {}
 
   /// Index of the material in the builder. None if `source` is null or says nothing about the look (a bare
-  /// shader, say): a mesh then keeps its own.
-  std::optional<int> add(const sdf::Material* source);
+  /// shader, say): a mesh then keeps its own. It has the name of its script, else of its first `user`.
+  std::optional<int> add(const sdf::Material* source, const std::string& user);
 
   /// Gives `mesh` a material of add(), with its texture as large as the script says.
   void put(int material, Mesh& mesh) const;

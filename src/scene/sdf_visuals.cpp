@@ -159,7 +159,7 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map
 std::optional<Mesh> SdfVisuals::shapeOf(const sdf::Visual& visual, const std::string& name) {
   const sdf::Geometry* geometry = visual.Geom();
   const sdf::ElementPtr element = geometry == nullptr ? nullptr : geometry->Element();
-  const std::optional<int> own_material = materials_.add(visual.Material());
+  const std::optional<int> own_material = materials_.add(visual.Material(), name);
   const int material = own_material ? *own_material : materials_.neutral();
   if (geometry != nullptr) {
     if (const std::optional<SdfHeightmap> ground = heightmapOf(*geometry))
@@ -187,7 +187,7 @@ void SdfVisuals::addRoads(const sdf::World& world) {
     std::optional<int> material;
     if (road->HasElement("material")) {
       const sdf::Errors errors = source.Load(road->GetElement("material"));
-      if (errors.empty()) material = materials_.add(&source);
+      if (errors.empty()) material = materials_.add(&source, name);
       if (!errors.empty())
         builder_.warn("materials of roads cannot be read, they look like asphalt",
                       errors[0].Message() + " of " + name);
@@ -215,7 +215,7 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& 
   const std::string& from = mesh.FilePath().empty() ? file_ : mesh.FilePath();
   const std::vector<MeshPart>* all = meshes_.partsOf(mesh.Uri(), from, from + ": visual " + name);
   if (all == nullptr) return;
-  const std::optional<int> material = materials_.add(visual.Material());
+  const std::optional<int> material = materials_.add(visual.Material(), name);
   std::vector<MeshPart> parts;
   for (const MeshPart& part : *all) {
     const bool wanted =

@@ -45,22 +45,22 @@ class UrdfLooks::Reader {
   Reader(const std::string& origin, const ResourceFinder& finder, SceneBuilder& builder)
       : origin_(origin), builder_(builder), materials_(finder, builder) {}
 
-  std::optional<int> add(const std::string& element) {
+  std::optional<int> add(const std::string& element, const std::string& place) {
     const auto [known, is_new] = known_.try_emplace(element);  // of all visuals of a link it is the same
-    if (is_new) known->second = read(element);
+    if (is_new) known->second = read(element, place);
     return known->second;
   }
 
   void put(int material, Mesh& mesh) const { materials_.put(material, mesh); }
 
  private:
-  std::optional<int> read(const std::string& element) {
+  std::optional<int> read(const std::string& element, const std::string& place) {
     const sdf::ElementPtr found = parsed(element, origin_, builder_);
     if (!found) return std::nullopt;
     found->SetFilePath(origin_);
     sdf::Material material;
     if (!material.Load(found).empty()) return std::nullopt;
-    return materials_.add(&material);
+    return materials_.add(&material, place);
   }
 
   std::map<std::string, std::optional<int>> known_;
@@ -75,7 +75,7 @@ UrdfLooks::UrdfLooks(const std::string& origin, const ResourceFinder& finder, Sc
 UrdfLooks::~UrdfLooks() = default;
 
 std::optional<int> UrdfLooks::add(const std::string& element, const std::string& place) {
-  const std::optional<int> material = reader_->add(element);
+  const std::optional<int> material = reader_->add(element, place);
   if (!material) builder_.warn("materials of <gazebo> elements say nothing that can be read", place);
   return material;
 }

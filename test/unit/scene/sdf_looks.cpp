@@ -254,6 +254,21 @@ TEST_F(SdfLook, TransparentVisualsAreSeenThrough) {
   EXPECT_EQ(look(loaded("", "<transparency>0</transparency>", box)).alpha_mode, AlphaMode::kOpaque);
 }
 
+TEST_F(SdfLook, MaterialsAreCalledApart) {
+  EXPECT_EQ(look(loaded("<material><diffuse>1 0 0 1</diffuse></material>")).name, "m::l::v");
+  for (const std::string name : {"a", "b"}) {
+    write(name + ".mtl", "newmtl red\nKd 1 0 0\n");
+    write(name + ".obj", "mtllib " + name + ".mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  }
+  const auto mesh = [](const std::string& name) { return "<mesh><uri>" + name + ".obj</uri></mesh>"; };
+  EXPECT_EQ(look(loaded("", "", mesh("a"))).name, "red");
+  const Scene both =
+      loaded("", "<geometry>" + mesh("a") + "</geometry></visual><visual name='w'>", mesh("b"));
+  ASSERT_EQ(both.meshes.size(), 2u);
+  for (const Mesh& one : both.meshes)
+    EXPECT_EQ(both.materials[static_cast<std::size_t>(one.material)].name, "red of " + one.name);
+}
+
 TEST_F(SdfLook, ATransparentSheetOfTwoSidesIsOne) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
   write("t.obj", points + "f 3 2 1 4\n");
