@@ -35,10 +35,6 @@ TEST_F(SdfLeftOut, ModelsThatAreMissingInWhatIsNotDrawnStopNothing) {
             std::string::npos);
 }
 
-TEST_F(SdfLeftOut, TheHeadingOfAWorldIsNamed) {
-  const auto turnedTo = [&](const std::string& heading) {
-    return boxWith("\n<spherical_coordinates><latitude_deg>-33.7</latitude_deg><heading_deg>" + heading +
-                   "</heading_deg></spherical_coordinates>")
 TEST_F(SdfLeftOut, TexturesOfAMeshThatIsMissingAreNotLookedFor) {
   SearchPath lenient;
   lenient.missing = Missing::kWarn;
@@ -54,13 +50,10 @@ TEST_F(SdfLeftOut, TexturesOfAMeshThatIsMissingAreNotLookedFor) {
       << scene.warnings[0];
 }
 
-TEST_F(SdfLeftOut, TheSiteOfAWorldIsNamedUnlessItIsNowhere) {
-  const auto at = [&](const std::string& latitude, const std::string& longitude, const std::string& heading) {
-    return boxWith("\n<spherical_coordinates><surface_model>EARTH_WGS84</surface_model><latitude_deg>" +
-                   latitude + "</latitude_deg><longitude_deg>" + longitude +
-                   "</longitude_deg><elevation>12</elevation>"
-                   "<heading_deg>" +
-                   heading + "</heading_deg></spherical_coordinates>")
+TEST_F(SdfLeftOut, TheHeadingOfAWorldIsNamed) {
+  const auto turnedTo = [&](const std::string& heading) {
+    return boxWith("\n<spherical_coordinates><latitude_deg>-33.7</latitude_deg><heading_deg>" + heading +
+                   "</heading_deg></spherical_coordinates>")
         .warnings;
   };
   EXPECT_TRUE(turnedTo("0").empty());  // its site is a matter of siteOf()
