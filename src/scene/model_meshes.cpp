@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "scene/missing_kinds.h"
+
 namespace sunlit::scene {
 
 const std::vector<MeshPart>* ModelMeshes::partsOf(const std::string& uri, const std::string& from_file,
@@ -12,7 +14,7 @@ const std::vector<MeshPart>* ModelMeshes::partsOf(const std::string& uri, const 
       throw std::runtime_error(place + ": there is no mesh " + uri + "; " + placesTried(found) +
                                kDrawTheRest);
     }
-    builder_.warn("meshes are missing and were left out", uri + " of " + place);
+    builder_.warn(kMissingMeshes, uri + " of " + place);
     return nullptr;
   }
   if (found.other_case) builder_.warn(kSpeltOtherwise, uri + " is " + *found.file);

@@ -12,6 +12,7 @@
 #include "scene/cofactors.h"
 #include "scene/color.h"
 #include "scene/mesh_directions.h"
+#include "scene/missing_kinds.h"
 #include "scene/square_texels.h"
 #include "sunlit/image/texture_files.h"
 #include "sunlit/scene/material_maps.h"
@@ -225,8 +226,15 @@ void SceneBuilder::repairCoordinates(const std::string& mesh, std::vector<Eigen:
 }
 
 std::string reasonsOf(const std::vector<std::string>& warnings) {
+  constexpr std::size_t kReasons = 3;
+  std::vector<std::string> sorted = warnings;
+  std::stable_partition(sorted.begin(), sorted.end(), [](const std::string& warning) {
+    return warning.find(kMissingModels) != std::string::npos ||
+           warning.find(kMissingMeshes) != std::string::npos;
+  });
   std::string text;
-  for (const std::string& warning : warnings) text += "; " + warning;
+  for (std::size_t i = 0; i < std::min(sorted.size(), kReasons); ++i) text += "; " + sorted[i];
+  if (sorted.size() > kReasons) text += "; and " + std::to_string(sorted.size() - kReasons) + " more";
   return text;
 }
 

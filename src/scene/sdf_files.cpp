@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/missing_kinds.h"
 #include "scene/sdf_console.h"
 #include "scene/sdf_library.h"
 #include "scene/sdf_mend.h"
@@ -247,7 +248,7 @@ const SdfFile* SdfFiles::included(const XMLElement& include, const SdfFile& file
     if (finder_.missing() == Missing::kStop) {
       missing_.emplace(uri, place);
     } else {
-      builder_.warn("models are missing and were left out", uri);
+      builder_.warn(kMissingModels, uri);
       builder_.warn("Models were looked for in " + finder_.rootsOf(uri));
     }
     return nullptr;

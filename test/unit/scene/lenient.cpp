@@ -246,9 +246,14 @@ TEST_F(Lenient, APoseMayNameNoFrame) {
 TEST_F(Lenient, AWorldWithNothingToSeeSaysWhy) {
   SearchPath lenient;
   lenient.missing = Missing::kWarn;
-  const std::string error = errorOf(worldFile(include("nowhere")), lenient);
-  EXPECT_EQ(error.find(pathOf("test.world") + ": there is nothing to see in this file; "), 0u) << error;
-  EXPECT_NE(error.find("models are missing and were left out: model://nowhere"), std::string::npos) << error;
+  const std::string odd = "<odd/><plugin name='p'/><light name='l' type='area'/>";
+  const std::string walker = "<model name='m'><link name='l'><odder/><projector name='p'/></link></model>";
+  const std::string error = errorOf(worldFile(odd + walker + include("nowhere")), lenient);
+  EXPECT_EQ(error.find(pathOf("test.world") + ": there is nothing to see in this file; "
+                                              "1 models are missing and were left out: model://nowhere; "),
+            0u)
+      << error;
+  EXPECT_NE(error.find(" more"), std::string::npos) << error;
 }
 
 TEST_F(Lenient, AnErrorStillNamesTheLineOfTheFile) {
