@@ -59,20 +59,6 @@ image::Rgba8Image coveredAs(const OpacityPicture& means, const image::Rgba8Image
   return covered;
 }
 
-/// Of materials that share a name, each by the first mesh that has it, too.
-void nameApart(Scene& scene) {
-  std::map<int, std::string> mesh_by_material;
-  std::map<std::string, int> users_by_name;
-  for (const Mesh& mesh : scene.meshes) {
-    if (mesh_by_material.emplace(mesh.material, mesh.name).second)
-      ++users_by_name[scene.materials[static_cast<std::size_t>(mesh.material)].name];
-  }
-  for (const auto& [material, mesh] : mesh_by_material) {
-    std::string& name = scene.materials[static_cast<std::size_t>(material)].name;
-    if (users_by_name[name] > 1 && name != mesh) name += " of " + mesh;
-  }
-}
-
 }  // namespace
 
 int SceneBuilder::textureFromFile(const std::string& file, const Wraps& wraps,
@@ -357,7 +343,6 @@ Scene SceneBuilder::finish() {
   settleAlpha();
   paintByMeans();
   joinPairs();
-  nameApart(scene_);
   for (const auto& [what, kind] : kinds_) {
     std::string line = std::to_string(kind.times) + " " + what;
     for (std::size_t i = 0; i < kind.examples.size(); ++i) line += (i == 0 ? ": " : "; ") + kind.examples[i];
