@@ -350,6 +350,25 @@ class LocaliseBags(unittest.TestCase):
         for arguments in (["--map", noon, "--query", dusk, other], ["--odometry", dusk, other]):
             self.assertIn("stereo/dusk and stereo_dusk are both stereo_dusk in names of files", self.refused(*arguments))
 
+    def test_results_of_two_runs_are_not_mixed(self):
+        noon, dusk = self.bags()
+        drives = ["--map", noon, "--query", dusk, "--detectors"]
+        self.localise("out", *drives, "sift,orb")
+        before = {file.name: file.read_bytes() for file in pathlib.Path(self.path("out")).iterdir()}
+        mixed = "%s: this folder holds results of another run (%s), which would be mixed with those of this one; choose another, or remove them\n"
+        for arguments, others in (([*drives, "sift"], "estimate_h20_orb.tum"),
+                                  (["--map", dusk, "--query", noon, "--detectors", "sift,orb"], "estimate_h20_orb.tum, …"),
+                                  (["--odometry", noon, "--detectors", "sift"], "estimate_h20_orb.tum, …")):
+            done = run("evaluate_bags", "--out", self.path("out"), *arguments)
+            self.assertEqual((done.returncode, done.stderr), (1, "evaluate_bags: " + mixed % (self.path("out"), others)))
+        self.localise("out", *drives, "sift,orb")
+        self.assertEqual({file.name: file.read_bytes() for file in pathlib.Path(self.path("out")).iterdir()}, before)
+        followed = ["evaluate_bags", "--odometry", noon, "--detectors", "sift", "--out", self.path("followed")]
+        for _ in range(2):
+            self.assertEqual(run(*followed).returncode, 0)
+        done = run("evaluate_bags", *drives, "sift", "--out", self.path("followed"))
+        self.assertEqual((done.returncode, done.stderr), (1, "evaluate_bags: " + mixed % (self.path("followed"), "odometry.csv, …")))
+
     def test_images_without_stamps_are_no_success(self):
         noon, dusk = self.bags()
         with rosbag.Bag(dusk) as bag, rosbag.Bag(self.path("unstamped.bag"), "w") as unstamped:

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <utility>
 
 #include "ros/evaluator/bag_streams.h"
 #include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/progress_log.h"
+#include "ros/evaluator/result_files.h"
 #include "ros/evaluator/view_source.h"
 #include "sunlit/evaluate/comparisons/comparisons.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
@@ -29,13 +31,14 @@ class BagLocalisation {
         origins_(options.localisation.detectors.size()) {}
 
   int run() {
+    requireOnlyOwnResults(options_.output_dir, results());
     for (const BagStream& stream : streams_.map) addToMap(stream);
     tellMap();
     localisation_.finishMap();
     for (const BagStream& stream : streams_.queries) find(stream);
     if (rows_.empty()) source_.fail("no query can be used");
     const std::vector<evaluate::LocalisationSummary> summaries = summariesOf(rows_);
-    writeLocalisation(fileOf("localisation.csv"), rows_);
+    writeLocalisation(fileOf(kLocalisationTable), rows_);
     writeLocalisationPoses(fileOf("localisation_poses.csv"), rows_);
     writeLocalisationSummary(fileOf("localisation_summary.csv"), summaries);
     const evaluate::Comparisons compared = comparisonsOf(measuredOf(rows_), {map_name_});
@@ -43,14 +46,14 @@ class BagLocalisation {
     for (const auto* lines : {&compared.left_out, &compared.paired_by_place})
       for (const std::string& line : *lines) std::printf("%s\n", line.c_str());
     for (const Found& found : found_) writeTrajectories(found);
-    std::printf("\n%s\n%s\n", localisationTable(summaries).c_str(), fileOf("localisation.csv").c_str());
+    std::printf("\n%s\n%s\n", localisationTable(summaries).c_str(), fileOf(kLocalisationTable).c_str());
     return source_.finish();
   }
 
  private:
   /// What came of one query stream.
   struct Found {
-    std::string file_name;
+    BagStream stream;
     evaluate::Trajectory truth;
     std::size_t first_row = 0, end_row = 0;  // among rows_
   };
@@ -63,6 +66,17 @@ class BagLocalisation {
 
   static evaluate::KeyFrameOrigin originOf(const BagStream& stream, const BagViews::Entry& entry) {
     return {stream.name, static_cast<std::int64_t>(entry.pose)};
+  }
+
+  /// Names of files.
+  std::set<std::string> results() const {
+    std::set<std::string> names = {kLocalisationTable};
+    for (const BagStream& stream : streams_.queries) {
+      names.insert(truthFile(stream));
+      for (const std::string& detector : options_.localisation.detectors)
+        names.insert(estimateFile(stream, detector));
+    }
+    return names;
   }
 
   std::string fileOf(const std::string& name) const { return options_.output_dir + "/" + name; }
@@ -110,7 +124,7 @@ class BagLocalisation {
   void find(const BagStream& stream) {
     const auto views = source_.open(stream);
     const std::vector<std::size_t> usable = source_.usable(*views, false);
-    Found found{stream.fileName(), {}, rows_.size()};
+    Found found{stream, {}, rows_.size()};
     source_.forEach(*views, usable, {"queries localised", false, [&](const auto& which, const auto& read) {
                                        auto localised = localisation_.localise(read);
                                        for (std::size_t q = 0; q < which.size(); ++q)
@@ -138,7 +152,7 @@ class BagLocalisation {
   }
 
   void writeTrajectories(const Found& found) const {
-    writeTrajectory(fileOf("truth_" + found.file_name + ".tum"), found.truth);
+    writeTrajectory(fileOf(truthFile(found.stream)), found.truth);
     for (const std::string& detector : options_.localisation.detectors) {
       evaluate::Trajectory estimate;
       for (std::size_t r = found.first_row; r < found.end_row; ++r) {
@@ -146,7 +160,7 @@ class BagLocalisation {
         if (row.detector == detector && row.result.status == evaluate::LocalisationStatus::kLocalised)
           estimate.push_back(poseOfLink(row.stamp_ns, row.result.estimate.map_from_optical));
       }
-      writeTrajectory(fileOf("estimate_" + found.file_name + "_" + detector + ".tum"), estimate);
+      writeTrajectory(fileOf(estimateFile(found.stream, detector)), estimate);
     }
   }
 

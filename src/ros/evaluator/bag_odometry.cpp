@@ -1,11 +1,13 @@
 #include "ros/evaluator/bag_odometry.h"
 
 #include <cstdio>
+#include <set>
 #include <utility>
 
 #include "ros/evaluator/bag_streams.h"
 #include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/progress_log.h"
+#include "ros/evaluator/result_files.h"
 #include "ros/evaluator/view_source.h"
 #include "sunlit/evaluate/localise/odometry_runs.h"
 #include "sunlit/evaluate/run/run_folder.h"
@@ -59,16 +61,16 @@ class BagOdometry {
       not_followed_.push_back(stream.name);
       return;
     }
-    trajectories_.emplace_back("truth_" + stream.fileName(), truth);
+    trajectories_.emplace_back(truthFile(stream), truth);
     for (std::size_t d = 0; d < estimates.size(); ++d) add(stream, d, {truth, estimates[d]}, runs);
   }
 
   int finish() const {
     if (rows_.empty()) source_.fail("no stream can be followed");
-    const std::string file = options_.output_dir + "/odometry.csv";
+    const std::string file = options_.output_dir + "/" + kOdometryTable;
     writeOdometry(file, rows_);
     for (const auto& [name, trajectory] : trajectories_)
-      writeTrajectory(options_.output_dir + "/" + name + ".tum", trajectory);
+      writeTrajectory(options_.output_dir + "/" + name, trajectory);
     std::printf("\n%-8s %-9s %5s %5s %10s %9s %14s %16s %12s\n", "stream", "detector", "n", "lost",
                 "key frames", "length m", "drift per 10 m", "turn per 10 m", "end error m");
     for (const evaluate::OdometryRow& row : rows_) {
@@ -93,7 +95,7 @@ class BagOdometry {
     row.lost = runs.at(d).lost();
     row.key_frames = runs.at(d).keyFrames();
     rows_.push_back(row);
-    trajectories_.emplace_back("odometry_" + stream.fileName() + "_" + row.detector, poses.estimate);
+    trajectories_.emplace_back(odometryFile(stream, row.detector), poses.estimate);
   }
 
   const BagLocalisationOptions& options_;
@@ -103,12 +105,23 @@ class BagOdometry {
   std::vector<std::pair<std::string, evaluate::Trajectory>> trajectories_;  // of each file
 };
 
+std::set<std::string> resultsOf(const std::vector<BagStream>& streams,
+                                const std::vector<std::string>& detectors) {
+  std::set<std::string> names = {kOdometryTable};
+  for (const BagStream& stream : streams) {
+    names.insert(truthFile(stream));
+    for (const std::string& detector : detectors) names.insert(odometryFile(stream, detector));
+  }
+  return names;
+}
+
 }  // namespace
 
 int odometryOfBags(const BagLocalisationOptions& options) {
   const LocalisationStreams streams = localisationStreams({}, options.odometry, options.topics);
   const FolderLock lock(options.output_dir);
   evaluate::requireNoRun(options.output_dir);
+  requireOnlyOwnResults(options.output_dir, resultsOf(streams.queries, options.localisation.detectors));
   BagOdometry odometry(options);
   for (const BagStream& stream : streams.queries) odometry.follow(stream);
   return odometry.finish();
