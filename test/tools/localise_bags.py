@@ -623,6 +623,11 @@ class LocaliseBags(unittest.TestCase):
             bag.write("/h20/camera/image_raw", PoseStamped(), rospy.Time(1))
         self.assertIn("/h20/camera/image_raw is geometry_msgs/PoseStamped, not sensor_msgs/Image",
                       self.refused("--map", noon, "--query", self.path("odd.bag")))
+        self.assertIn("/h12/camera/camera_info is sensor_msgs/CameraInfo, not geometry_msgs/PoseStamped",
+                      self.refused("--map", noon, "--query", dusk, "--poses", "/h12/camera/camera_info"))
+        blind = self.write("blind.bag", "h20/", [0.5, 1.5], without={("camera_info", 0), ("camera_info", 1)})
+        self.assertIn("h20 at 100.000000000: the bag holds no /h20/camera/camera_info, see --camera-info",
+                      self.refused("--map", noon, "--query", blind))
 
 
 if __name__ == "__main__":

@@ -73,7 +73,8 @@ Eigen::Matrix3d readHomography(const std::string& path) {
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     if (++number == 1) line = utf8Of(std::move(line), path);
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
     try {
       if (rows == 3) throw std::runtime_error(std::string("a fourth line; ") + kForm);
       matrix.row(rows++) = rowOf(line);

@@ -166,7 +166,9 @@ void BagViews::readIndex() {
   index.view.addQuery(*bag_, topicQuery(wanted));
   for (const MessageInstance& instance : index.view) {
     const std::string topic = withSlash(instance.getTopic());
-    if (topic == index.images_topic) {
+    if (topic == index.poses_topic) {  // before all that it may have been named instead of
+      addPose(poseMessageOf(instance));
+    } else if (topic == index.images_topic) {
       requireImage(instance, true);
       const std::int64_t stamp_ns = stampOf(instance);
       if (!index.images.emplace(stamp_ns, instance).second) repeated_.push_back(stamp_ns);
@@ -176,8 +178,6 @@ void BagViews::readIndex() {
     } else if (topic == index.infos_topic) {
       const auto message = messageOf<sensor_msgs::CameraInfo>(instance);
       index.cameras.emplace(nanosecondsOf(message->header.stamp), *message);
-    } else if (topic == index.poses_topic) {
-      addPose(poseMessageOf(instance));
     } else {
       const evaluate::CaptureRecord capture = captureOf(*messageOf<Capture>(instance));
       index.captures.emplace(capture.stamp_ns, capture);
@@ -245,8 +245,10 @@ BagViews::Entry BagViews::entryOf(std::int64_t stamp_ns) const {
 
 evaluate::ViewCamera BagViews::cameraAt(std::int64_t stamp_ns) const {
   const ByStamp<sensor_msgs::CameraInfo>& cameras = index_->cameras;
+  if (cameras.empty())
+    throw std::invalid_argument("the bag holds no " + index_->infos_topic + ", see --camera-info");
   const auto found = nearest(cameras, stamp_ns);
-  const bool is_near = found != cameras.end() && std::abs(found->first - stamp_ns) <= toleranceOf(topics_);
+  const bool is_near = std::abs(found->first - stamp_ns) <= toleranceOf(topics_);
   if (!is_near && cameras.size() != 1)
     throw std::invalid_argument(lackOf(calledOr(topics_.camera_info, "camera_info"), cameras, stamp_ns));
   const image::Calibration read = fromCameraInfo(found->second, index_->images_topic);

@@ -43,8 +43,8 @@ PointMaps homographyMaps(const Eigen::Matrix3d& b_from_a, const PictureSizes& si
 /// The same, where both pictures are taken from one pose by one camera: each point stays where it is.
 PointMaps identityMaps(const PictureSize& size);
 
-/// Three lines of three numbers each, apart by blanks; empty lines do not count. Throws std::runtime_error
-/// with path, line and what is wrong, also for a matrix that cannot be inverted.
+/// Three lines of three numbers each, apart by blanks; empty lines and those that begin with # do not count.
+/// Throws std::runtime_error with path, line and what is wrong, also for a matrix that cannot be inverted.
 Eigen::Matrix3d readHomography(const std::string& path);
 
 }  // namespace sunlit::evaluate

@@ -106,7 +106,7 @@ class HomographyFile : public ::testing::Test {
 };
 
 TEST_F(HomographyFile, HasThreeLinesOfThreeNumbers) {
-  setContent(path(), "  5.0e-01  -1 2\r\n\n1\t2.5 3\n \n0 0 1");
+  setContent(path(), "# of A into B\n  5.0e-01  -1 2\r\n\n1\t2.5 3\n \n  # 1 2 3\n0 0 1");
   Eigen::Matrix3d expected;
   expected << 0.5, -1, 2, 1, 2.5, 3, 0, 0, 1;
   EXPECT_EQ(readHomography(path()), expected);
