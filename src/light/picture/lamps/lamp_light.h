@@ -29,7 +29,7 @@ class LampLight {
     const Surfaces& surfaces;
     const scene::Scene& scene;
     const Visibility& visibility;
-    MirrorsByRays by_rays;  ///< which of the surfaces do
+    MirrorsByRays by_rays;  ///< which of the surfaces show by rays what they mirror
   };
   struct Sources {
     const std::vector<scene::Lamp>& lamps;
