@@ -306,9 +306,10 @@ TEST(ShiningSurfaces, AslantLightTheGroundBeforeThemAlone) {
     // Between nodes, where it bends. With cells up to 0.7 of the distance: 12 % too little.
     EXPECT_NEAR(illuminance(world, place) / exact(place), 1.0, 0.04) << place.transpose();
   }
+  // What is fainter than 0.05 lx, 0.4 % of the most, may be interpolated across the panel's plane.
   for (const float x : {-2.6f, -3.5f, -5.0f}) {
     for (const float y : {0.0f, 3.0f, 4.0f, 5.5f})
-      EXPECT_LT(illuminance(world, {x, y, 0.0f}), 1e-5 * exact(Eigen::Vector3f::Zero())) << x << " " << y;
+      EXPECT_LT(illuminance(world, {x, y, 0.0f}), 1e-3 * exact(Eigen::Vector3f::Zero())) << x << " " << y;
   }
 }
 

@@ -175,7 +175,7 @@ float MeshBuilder::variation(const LightMesh::Cell& cell) const {
 /// By how much what shines lights the corners, valid ones among them, differently, in steps that may be
 /// interpolated; and no less than by how far off it is, lest a pool of light lies unseen amid the cell.
 float MeshBuilder::shoneUnevenly(const LightMesh::Cell& cell) const {
-  constexpr float kSmoothShine = 0.4f, kFaint_lx = 0.01f;
+  constexpr float kSmoothShine = 0.4f, kFaint_lx = 0.05f;
   // Of the distance: between two nodes light bends away from a line by at most 6 % then.
   constexpr float kShineShare = 0.35f;
   float least = 1e9f, most = 0.0f, nearest = 1e9f;
