@@ -44,7 +44,7 @@ double finestOf(const TransportOptions& options, const Geometry& geometry) {
   constexpr double kUsual_m = 0.25, kLeast_m = 0.02, kOfDiagonal = 1.0 / 64.0;
   if (options.finest_m) return *options.finest_m;
   Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& position : geometry.positions) box.extend(position);
+  for (const scene::Chunk& chunk : geometry.chunks) box.extend(chunk.box);
   if (box.isEmpty()) return kUsual_m;
   return std::clamp(kOfDiagonal * static_cast<double>(box.diagonal().norm()), kLeast_m, kUsual_m);
 }

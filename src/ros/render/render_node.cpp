@@ -15,7 +15,6 @@
 #include "ros/conversions/images.h"
 #include "ros/render/input_log.h"
 #include "sunlit/ros/delivery.h"
-#include "sunlit/scene/world_site.h"
 #include "sunlit/studio/other_site.h"
 
 namespace sunlit::ros_interface {
@@ -144,6 +143,7 @@ studio::Reports RenderNode::reports() {
 
 void RenderNode::onLoaded(const light::World& world, const std::string& world_print) {
   world_print_ = world_print;
+  site_ = scene::siteOf(options_.world.name, options_.world.searchPath());
   if (path_ && path_->ready())
     path_->warnIfFarFrom(studio::boundsOf(world), options_.studioOptions().render.far_m);
   if (!files_ || !files_->goesOn() || !path_ || !path_->ready()) return;
@@ -248,9 +248,7 @@ void RenderNode::beginFolder() {
 }
 
 void RenderNode::checkSite() {
-  if (!std::exchange(site_due_, false)) return;
-  const std::optional<scene::WorldSite> world =
-      scene::siteOf(options_.world.name, options_.world.searchPath());
+  const std::optional<scene::WorldSite> world = std::exchange(site_, std::nullopt);
   if (world && !streams_.isOver(*world))
     ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME, "%s", studio::otherSiteText(*world).c_str());
 }

@@ -21,6 +21,7 @@
 #include "ros/render/streams.h"
 #include "sunlit/RenderView.h"
 #include "sunlit/ros/conditions.h"
+#include "sunlit/scene/world_site.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
 
@@ -87,6 +88,7 @@ class RenderNode {
   std::unique_ptr<PathSource> path_;         // not where a TF frame is followed
   std::unique_ptr<RobotPlaces> robot_;       // where there is one
   std::string world_print_;                  // light::fingerprint() of the world, once it is loaded
+  std::optional<scene::WorldSite> site_;     // that the world names, until it is compared with the sun's
   bool inputs_kept_ = false;
   studio::Sky sky_;
   studio::Studio studio_;
@@ -98,7 +100,6 @@ class RenderNode {
   bool paused_;
   std::optional<std::chrono::steady_clock::time_point> timing_kept_;  // when it was written last
   bool map_due_ = false;
-  bool site_due_ = true;
   bool has_begun_ = false;  // and may write into its folder
   bool finished_ = false;   // all is rendered
   std::vector<ros::ServiceServer> services_;
