@@ -23,6 +23,13 @@ void appendDisc(const sky::DiscLight& light, std::size_t day, std::vector<Disc>*
   if (light.illuminance.value.maxCoeff() > 0.0f) discs->push_back({day, DiscArea(light), light});
 }
 
+/// With which density addLamp() chooses `towards`, 1/sr, of a lamp that shows a disc in the distance of
+/// `middle`.
+float densityOnLamp(const LampBeam& lamp, const Eigen::Vector3f& middle, const Eigen::Vector3f& towards) {
+  const float cosine = middle.dot(towards) / middle.norm(), reach_m = middle.norm() / cosine;
+  return reach_m * reach_m / (kPiFloat * lamp.radius_m() * lamp.radius_m() * cosine);
+}
+
 }  // namespace
 
 PathScene::PathScene(const World& world_to_trace, const std::vector<sky::Daylight>& days_to_trace,
@@ -95,6 +102,8 @@ std::array<Radiances, 2> Paths::luminance(const Tile& tile, const Surface& surfa
     }
     for (const LampBeam& lamp : scene_.lamps) addLamp(lamp, bounce);
     for (std::size_t day = 0; day < scene_.days.size(); ++day) addSkyOf(day, bounce);
+    scatterAll(bounce);
+    for (const LampBeam& lamp : scene_.lamps) addLampMet(lamp);
     advance(bounce);
   }
   for (Radiances& sums : sums_) {
@@ -183,6 +192,7 @@ void Paths::throughCloud(const Disc& disc) {
     weights_[k] *= day.throughCloud(disc.light, bundle_.origin(k));
 }
 
+// Weighed as the sky's directions are, see addSkyOf().
 void Paths::addLamp(const LampBeam& lamp, int bounce) {
   bundle_.clear();
   weights_.clear();
@@ -198,14 +208,44 @@ void Paths::addLamp(const LampBeam& lamp, int bounce) {
                      Eigen::Vector2f(radius * std::cos(angle), radius * std::sin(angle));
     const Eigen::Vector3f towards = way.normalized();
     if (!vertex.faces(towards)) continue;
-    const Eigen::Array3f weight = directReflectance(vertex.reflection, towards, 0.0f) * lamp.at(vertex.front);
+    Eigen::Array3f weight = directReflectance(vertex.reflection, towards, 0.0f) * lamp.at(vertex.front);
     if (!(weight.maxCoeff() > 0.0f)) continue;
-    // What is part of the lamp hides nothing.
-    const float ball_m = lamp.spared_m() + rayClearance_m(vertex.front, 0.0f);
-    bundle_.add(vertex.origin(towards), std::max(1.0f - ball_m / distance_m, 1e-6f) * way, i);
+    if (lamp.radius_m() > 0.0f) {
+      const float density = densityOnLamp(lamp, middle, towards);
+      weight *= density / (density + scatterDensity(vertex.reflection, towards));
+    }
+    addRayToLamp(lamp, way, i);
     weights_.push_back(paths_[i].throughput * weight);
   }
   castAndAddOnAllDays(lamp.castsShadows());
+}
+
+void Paths::addRayToLamp(const LampBeam& lamp, const Eigen::Vector3f& way, std::size_t of_path) {
+  const Vertex& vertex = paths_[of_path].vertex;
+  // What is part of the lamp hides nothing.
+  const float ball_m = lamp.spared_m() + rayClearance_m(vertex.front, 0.0f);
+  bundle_.add(vertex.origin(way.normalized()),
+              std::max(1.0f - ball_m / (lamp.position() - vertex.front).norm(), 1e-6f) * way, of_path);
+}
+
+void Paths::addLampMet(const LampBeam& lamp) {
+  if (!(lamp.radius_m() > 0.0f)) return;
+  bundle_.clear();
+  weights_.clear();
+  for (std::size_t k = 0; k < scattered_.size(); ++k) {
+    const Path& path = paths_[of_path_[k]];
+    const Eigen::Vector3f& towards = scattered_[k].towards;
+    const Eigen::Vector3f middle = lamp.position() - path.vertex.front;
+    const float along = middle.dot(towards);
+    if (!(along > 0.0f && middle.norm() > lamp.radius_m())) continue;
+    const Eigen::Vector3f way = middle.squaredNorm() / along * towards;
+    if ((way - middle).squaredNorm() > lamp.radius_m() * lamp.radius_m()) continue;
+    const float density = densityOnLamp(lamp, middle, towards);
+    addRayToLamp(lamp, way, of_path_[k]);
+    weights_.push_back(path.throughput * scattered_[k].reflectance * lamp.at(path.vertex.front) *
+                       (density / (density + scattered_[k].density)));
+  }
+  if (!weights_.empty()) castAndAddOnAllDays(lamp.castsShadows());
 }
 
 void Paths::castAndAddOnAllDays(bool shadows) {
@@ -285,8 +325,8 @@ void Paths::addSkyMet(const Path& path, const Scattered& scattered) {
   }
 }
 
-void Paths::advance(int bounce) {
-  bundle_.clear();
+void Paths::scatterAll(int bounce) {
+  of_path_.clear();
   scattered_.clear();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     const Path& path = paths_[i];
@@ -295,8 +335,16 @@ void Paths::advance(int bounce) {
                                  random(path, bounce, kDirection + 2)});
     if (!path.vertex.faces(scattered.towards) || !(scattered.density > 0.0f)) continue;
     if (!((path.throughput * scattered.reflectance).maxCoeff() > 0.0f)) continue;
-    bundle_.add(path.vertex.origin(scattered.towards), scattered.towards, i);
+    of_path_.push_back(i);
     scattered_.push_back(scattered);
+  }
+}
+
+void Paths::advance(int bounce) {
+  bundle_.clear();
+  for (std::size_t k = 0; k < scattered_.size(); ++k) {
+    const Eigen::Vector3f& towards = scattered_[k].towards;
+    bundle_.add(paths_[of_path_[k]].vertex.origin(towards), towards, of_path_[k]);
   }
   hits_.resize(bundle_.path.size());
   scene_.world.visibility->closest(bundle_.rays(), hits_.data());

@@ -99,8 +99,12 @@ class Paths {
   /// With which density addDiscInFloors() would have chosen `path`'s last step, were `towards` the disc's
   /// point; 0: never.
   float densityInFloors(const Path& path, const Eigen::Vector3f& towards) const;
-  /// One lamp on all days.
+  /// One lamp on all days, by points of its disc.
   void addLamp(const LampBeam& lamp, int bounce);
+  /// The same where a ray chosen by the surface meets it: smooth mirrors show a lamp to no others.
+  void addLampMet(const LampBeam& lamp);
+  /// To the bundle, to the end of `way` or as much before it as the lamp spares.
+  void addRayToLamp(const LampBeam& lamp, const Eigen::Vector3f& way, std::size_t of_path);
   /// Sky, by directions chosen for its brightness.
   void addSkyOf(std::size_t day, int bounce);
   /// Sky, where a ray chosen by the surface meets it.
@@ -111,7 +115,9 @@ class Paths {
   /// The path of ray number `i` of the bundle passes the glass before hits_[i], or ends by chance at one of
   /// the sheets, which hits_[i] then is.
   void passGlassTo(std::size_t i, int bounce, Path* path);
-  /// To the next surfaces. Paths that reach the sky or die are gone afterwards.
+  /// Has each path choose a direction by its surface.
+  void scatterAll(int bounce);
+  /// Along these to the next surfaces. Paths that reach the sky or die are gone afterwards.
   void advance(int bounce);
   bool survives(int bounce, Path* path) const;
 
@@ -123,6 +129,7 @@ class Paths {
   std::vector<std::uint8_t> blocked_;
   std::vector<Eigen::Array3f> weights_;  ///< what each ray of the bundle adds if nothing stops it
   std::vector<Scattered> scattered_;
+  std::vector<std::size_t> of_path_;  ///< of each of them
   std::vector<Hit> hits_;
   std::vector<Hit> sheets_;
 };

@@ -27,7 +27,8 @@ class Ggx {
 
   /// D, 1/sr: area of the facets of that normal, for a unit of area of the surface; [W] eq. 33.
   Real distribution(Real n_h) const {
-    const Real base = (n_h * alpha2_ - n_h) * n_h + 1;
+    // Of smooth surfaces rounding of n_h tells: as in meanDistribution(), to whose values this is compared.
+    const Real base = (1 - n_h * n_h) * (1 - alpha2_) + alpha2_;
     return alpha2_ / (static_cast<Real>(kPi) * base * base);
   }
   /// By the sines of their angles to the normal facets are spread as points of a ball of this squared radius,

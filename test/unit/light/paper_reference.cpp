@@ -86,6 +86,36 @@ TEST(Panel, OfAHandsWidthLightsTheFloorOfAHallByItsSolidAngle) {
   EXPECT_NEAR(traced(worldOf(scene), {below}, uniformDay(0.0f), 20000)[0], expected, 0.02 * expected);
 }
 
+TEST(Lamps, ShowInMirrorsAsBrightAsTheyAre) {
+  scene::Scene scene;
+  scene::Material mirror = paint(0.8f);
+  mirror.metalness = 1.0f;
+  mirror.roughness = scene::Material::kSmoothest;
+  scene.materials = {mirror};
+  addGround(&scene, 0, 20.0f);
+  const World world = worldOf(scene);
+  scene::Lamp lamp;
+  lamp.name = "lamp";
+  lamp.position = {2.0f, 0.0f, 4.0f};
+  lamp.radius_m = 0.5f;
+  lamp.intensity = LinearRgb(100.0f, 100.0f, 100.0f);
+  // Its image is a disc of 0.5 m across the way: amid it, and beside it.
+  const Eigen::Vector3f to_eye = Eigen::Vector3f(-2.0f, 0.0f, 4.0f).normalized();
+  std::vector<Looked> points;
+  for (const float y : {0.0f, 0.1f, -0.2f, 2.0f}) points.push_back({{0.0f, y, 0.0f}, kUp, to_eye});
+  const Surfaces surfaces = rowOf(points, scene);
+  ReferenceOptions options;
+  options.samples_per_pixel = 200;
+  options.lamps = {lamp};
+  const std::vector<double> seen =
+      rowValues(traceReference(surfaces, world, {uniformDay(0.0f)}, options)[0].luminance);
+  const double luminance = 100.0 / (kPi * 0.5 * 0.5);  // of a disc: I = L pi r2
+  // 2 %: of its facets a few per mille look beside it, and the more of 0.8 by Fresnel is 0.001 %. By points
+  // on the lamp alone 0 to 8 times that, for a hundredth of them lies within what a pixel's facets show.
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(seen[i], 0.8 * luminance, 0.02 * luminance) << i;
+  EXPECT_NEAR(seen[3], 0.0, 0.001 * luminance);
+}
+
 TEST(Plates, TwoParallelOnesPassLightOnWithoutEnd) {
   // Two plates so wide that hardly anything leaves between them: as in the room, but the geometric series
   // goes to and fro between two surfaces, of which only one glows: L1 = e + R L2, L2 = R L1.
