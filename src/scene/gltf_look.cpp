@@ -299,10 +299,11 @@ class LookReader {
     const json& volume = extension(source_, "KHR_materials_volume");
     const float thickness = volume.value("thicknessFactor", 0.0f);
     const float distance = volume.value("attenuationDistance", std::numeric_limits<float>::infinity());
-    if (!(thickness > 0.0f) || !(distance > 0.0f) || !std::isfinite(thickness / distance)) return;
-    // Beer and Lambert: its colour is what is left after that distance. Of one-sided bodies a ray meets one
-    // face, of others two.
-    const float depth = (material.double_sided ? 0.5f : 1.0f) * thickness / distance;
+    if (!(thickness > 0.0f)) return;
+    material.double_sided = true;  // a hollow body has two walls, for eyes as for light
+    if (!(distance > 0.0f) || !std::isfinite(thickness / distance)) return;
+    // Beer and Lambert: its colour is what is left after that distance.
+    const float depth = 0.5f * thickness / distance;
     const LinearRgb left = clamped(color(volume, "attenuationColor", LinearRgb(1.0f, 1.0f, 1.0f)));
     material.base_color.value *= left.value.pow(depth);
   }

@@ -172,16 +172,18 @@ TEST_F(GltfMaterial, OfAVolumeHasTheColourOfItsDepth) {
                   volume + "}}}");
   };
   const std::string green = "\"attenuationDistance\":0.5,\"attenuationColor\":[0.25,1,0.25]";
-  // Twice that distance by one face, or once by each of two.
-  const Scene one = bottle("\"thicknessFactor\":1," + green, "false");
-  EXPECT_NEAR(one.materials[0].base_color.value[0], 0.0625f, 1e-6f);
-  EXPECT_EQ(one.materials[0].base_color.value[1], 1.0f);
-  EXPECT_NE(warningsOf(one).find("a volume: as if it were hollow"), std::string::npos);
-  const Scene two = bottle("\"thicknessFactor\":1," + green, "true");
-  EXPECT_NEAR(two.materials[0].base_color.value[2], 0.25f, 1e-6f);
+  // Twice that distance, once by each of two walls, whatever its sides.
+  for (const char* sides : {"false", "true"}) {
+    const Scene body = bottle("\"thicknessFactor\":1," + green, sides);
+    EXPECT_TRUE(body.materials[0].double_sided);
+    EXPECT_NEAR(body.materials[0].base_color.value[0], 0.25f, 1e-6f);
+    EXPECT_EQ(body.materials[0].base_color.value[1], 1.0f);
+    EXPECT_NE(warningsOf(body).find("a volume: as if it were hollow"), std::string::npos);
+  }
   // A thin wall has no depth, and nothing is lost.
   const Scene thin = bottle(green, "false");
   EXPECT_EQ(thin.materials[0].base_color.value[0], 1.0f);
+  EXPECT_FALSE(thin.materials[0].double_sided);
   EXPECT_EQ(warningsOf(thin), "");
   EXPECT_EQ(bottle("\"thicknessFactor\":1", "false").materials[0].base_color.value[0], 1.0f);
 }
