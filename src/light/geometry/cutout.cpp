@@ -19,22 +19,28 @@ const scene::Texture& white() {
   return texture;
 }
 
-/// Luminance that comes through a sheet of glass, of one on its other side, by steps of the cosine to its
-/// normal from 0 to 1.
-std::vector<float> through(const scene::Material& material) {
+/// What comes through a sheet of glass.
+struct ThroughGlass {
+  std::vector<float> shares;  ///< of luminance, by steps of the cosine to its normal from 0 to 1
+  Eigen::Array3f tint;        ///< colour of it, of luminance 1, on its straight way
+};
+
+ThroughGlass throughGlass(const scene::Material& material) {
   Reflection reflection = {Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitZ(), material.base_color.value};
   reflection.metalness = material.metalness;
   reflection.dielectric = material.dielectric.value;
   reflection.dielectric_grazing = material.dielectric_grazing;
   reflection.glass = material.glass;
   constexpr int kSteps = 64;
-  std::vector<float> shares;
+  ThroughGlass through{{}, Eigen::Array3f::Ones()};
   for (int i = 0; i <= kSteps; ++i) {
     const float cosine = static_cast<float>(i) / kSteps;
     reflection.to_eye = Eigen::Vector3f(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
-    shares.push_back(LinearRgb(straightThrough(reflection)).luminance());
+    const Eigen::Array3f color = straightThrough(reflection);
+    through.shares.push_back(LinearRgb(color).luminance());
+    if (i == kSteps && through.shares.back() > 0.0f) through.tint = color / through.shares.back();
   }
-  return shares;
+  return through;
 }
 
 float atCosine(const std::vector<float>& through, float cosine) {
@@ -168,17 +174,30 @@ void Cutouts::Query::solid(const float* u, const float* v, std::size_t count, st
   }
 }
 
-std::int32_t Cutouts::maskOf(const scene::Texture& texture, float alpha_cutoff, float blended,
-                             const std::vector<float>& through) {
+std::int32_t Cutouts::maskOf(const scene::Texture& texture, float alpha_cutoff, float blended) {
   const auto same = std::find_if(masks_.begin(), masks_.end(), [&](const Mask& mask) {
     return mask.texture == &texture && mask.cutoff == alpha_cutoff * 255.0f && mask.blended == blended &&
-           mask.through == through;
+           mask.through.empty();
   });
   const auto index = static_cast<std::int32_t>(same - masks_.begin());
   if (same == masks_.end()) {
     masks_.emplace_back(texture, alpha_cutoff);
     masks_.back().blended = blended;
-    masks_.back().through = through;
+  }
+  return index;
+}
+
+std::int32_t Cutouts::maskOfGlass(const scene::Material& material) {
+  ThroughGlass through = throughGlass(material);
+  const auto same = std::find_if(masks_.begin(), masks_.end(), [&](const Mask& mask) {
+    return mask.through == through.shares && (mask.tint == through.tint).all();
+  });
+  const auto index = static_cast<std::int32_t>(same - masks_.begin());
+  if (same == masks_.end()) {
+    masks_.emplace_back(white(), 0.0f);
+    masks_.back().blended = 1.0f - mean(through.shares);
+    masks_.back().through = std::move(through.shares);
+    masks_.back().tint = through.tint;
   }
   return index;
 }
@@ -198,8 +217,7 @@ Cutouts::Cutouts(const Geometry& geometry, Veils veils) {
     if (!isListed(scene, material, veils)) mask_of[m] = kNowhere;
     if (mask_of[m] == kNowhere) continue;
     if (isGlass(material)) {
-      const std::vector<float> shares = through(material);
-      mask_of[m] = maskOf(white(), 0.0f, 1.0f - mean(shares), shares);
+      mask_of[m] = maskOfGlass(material);
       continue;
     }
     if (!(masks || blends)) continue;

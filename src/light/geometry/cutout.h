@@ -53,6 +53,8 @@ class Cutouts {
     /// Of what blends: the share of light that stops there, which meets it by this cosine to its normal;
     /// glass asks for that.
     float share(float u, float v, float cosine) const;
+    /// Colour of what comes through of white light, of luminance 1.
+    const Eigen::Array3f& tint() const { return mask_.tint; }
     /// Whether such a share means this point: up to a hash of it and of the triangle, for of sheets that
     /// cover one another each stops rays by itself.
     bool isThere(float share, float u, float v) const;
@@ -90,6 +92,7 @@ class Cutouts {
     float blended = kCutOut;  ///< factor on alpha; kCutOut: solid where alpha reaches the cutoff
     /// Of glass: luminance that comes through, by steps of the cosine from 0 to 1; else empty.
     std::vector<float> through;
+    Eigen::Array3f tint = Eigen::Array3f::Ones();  ///< see Query::tint()
 
     enum Square : unsigned { kClear = 0, kSolid = 1, kMixed = 2 };
     /// Where the square stands whose top left corner is the centre of texel (x, y).
@@ -109,8 +112,8 @@ class Cutouts {
     int blocks_a_row;
   };
   /// Index into masks_.
-  std::int32_t maskOf(const scene::Texture& texture, float alpha_cutoff, float blended,
-                      const std::vector<float>& through = {});
+  std::int32_t maskOf(const scene::Texture& texture, float alpha_cutoff, float blended);
+  std::int32_t maskOfGlass(const scene::Material& material);
 
   std::vector<std::uint32_t> opaque_, masked_;
   std::vector<Triangle> triangles_;  ///< parallel to masked_

@@ -89,7 +89,7 @@ AmbientLight unbakedLight(const Surface& surface, const AmbientSources& sources,
 Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky) {
   Mirrored mirrored;
   if (const auto* rough = std::get_if<RoughMirror>(&mirror)) {
-    mirrored.sky = sky.patches().times(rough->share.data()) * rough->scale;
+    mirrored.sky = rough->tint.times(sky.patches().times(rough->share.data()) * rough->scale);
     mirrored.hidden_above = rough->hidden_above;
     mirrored.hidden_below = rough->hidden_below;
   } else {
@@ -102,7 +102,7 @@ Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky) {
       open += share;
     }
     constexpr float kAll = 255.0f * SmoothMirror::kParts;
-    mirrored.sky = sum.head<3>() / kAll;
+    mirrored.sky = smooth.tint.times(sum.head<3>() / kAll);
     mirrored.hidden_above = std::max(1.0f - open / kAll - smooth.hidden_below, 0.0f);
     mirrored.hidden_below = smooth.hidden_below;
   }

@@ -58,7 +58,10 @@ TEST(BakeVeils, ShareTheLightOfARayInTheirOrder) {
   rays.cast(raysDown({0.0f, 0.17f, 10.0f}), &layers);
   for (int i = 0; i < RayPacket::kSize; ++i) {
     std::vector<std::pair<float, float>> met;  // distance, share
-    layers.visit(i, [&](const HitPacket& hits, float share) { met.emplace_back(hits.distance[i], share); });
+    layers.visit(i, [&](const HitPacket& hits, float share, PackedTint tint) {
+      met.emplace_back(hits.distance[i], share);
+      EXPECT_TRUE(tint.white());
+    });
     ASSERT_EQ(met.size(), 3u);
     const float expected[3][2] = {{8.0f, 0.5f}, {9.0f, 0.125f}, {10.0f, 0.375f}};
     for (std::size_t k = 0; k < met.size(); ++k) {

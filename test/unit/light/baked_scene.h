@@ -15,9 +15,9 @@ inline World baked(scene::Scene scene, const TransportOptions& options = Transpo
   return world;
 }
 
-/// Luminances as a renderer gets them, cd/m².
-inline std::vector<double> fast(const World& world, const std::vector<Looked>& points,
-                                const sky::Daylight& day) {
+/// As a renderer gets them, cd/m².
+inline image::LinearImage fastPicture(const World& world, const std::vector<Looked>& points,
+                                      const sky::Daylight& day) {
   Surfaces surfaces = rowOf(points, *world.geometry->scene);
   for (Tile& tile : surfaces.tiles) {
     for (Surface& surface : tile.surfaces)
@@ -27,7 +27,11 @@ inline std::vector<double> fast(const World& world, const std::vector<Looked>& p
   for (const TileOutlooks& tile : outlooks) {
     for (const Outlook& outlook : tile.surfaces) EXPECT_TRUE(outlook.light.known());
   }
-  return rowValues(surfaces, outlooks, world, illumination(world, day));
+  return pictureOf(surfaces, outlooks, world, illumination(world, day));
+}
+inline std::vector<double> fast(const World& world, const std::vector<Looked>& points,
+                                const sky::Daylight& day) {
+  return rowValues(fastPicture(world, points, day));
 }
 
 /// Relative, of some pixels.

@@ -159,13 +159,17 @@ inline std::vector<double> rowValues(const Surfaces& surfaces, const World& worl
   return rowValues(surfaces, outlooksOf(surfaces, world), world, light);
 }
 
-inline std::vector<double> traced(const World& world, const std::vector<Looked>& points,
-                                  const sky::Daylight& day, int samples, int bounces = 64) {
+inline image::LinearImage tracedPicture(const World& world, const std::vector<Looked>& points,
+                                        const sky::Daylight& day, int samples, int bounces = 64) {
   const Surfaces surfaces = rowOf(points, *world.geometry->scene);
   ReferenceOptions options;
   options.samples_per_pixel = samples;
   options.bounces = bounces;
-  return rowValues(traceReference(surfaces, world, {day}, options)[0].luminance);
+  return traceReference(surfaces, world, {day}, options)[0].luminance;
+}
+inline std::vector<double> traced(const World& world, const std::vector<Looked>& points,
+                                  const sky::Daylight& day, int samples, int bounces = 64) {
+  return rowValues(tracedPicture(world, points, day, samples, bounces));
 }
 
 inline sky::Daylight uniformDay(float luminance, double ground_albedo = 0.0) {

@@ -146,7 +146,8 @@ class DiscOnSources {
     return Eigen::Map<const Eigen::Vector3f>(source.normal.data()).dot(towards_);
   }
   Eigen::Array3f byPatches(std::uint32_t sample) const {
-    return by_patches_.times(data_.direct.row(sample)) * (data_.direct.scales[sample] * through_.at(sample));
+    return data_.directTint(sample).times(by_patches_.times(data_.direct.row(sample)) *
+                                          (data_.direct.scales[sample] * through_.at(sample)));
   }
   Eigen::Array3f throughGlass(const Eigen::Vector3f& point) const {
     if (!glass_.any()) return Eigen::Array3f::Ones();
@@ -227,8 +228,10 @@ void DiscsInRooms::startFromPatches(const sky::DiscLight& disc, const ThroughClo
   }
   const Coefficients& mirrored = data_.rooms.mirrored;
   tbb::parallel_for(std::size_t{0}, mirrored_.size(), [&](std::size_t room) {
-    mirrored_[room] +=
-        light.times(mirrored.row(room)) * (mirrored.scales[room] * through.at(data_.rooms.samples[room]));
+    const PackedTint tint =
+        data_.rooms.mirrored_tints.empty() ? PackedTint() : data_.rooms.mirrored_tints[room];
+    mirrored_[room] += tint.times(light.times(mirrored.row(room)) *
+                                  (mirrored.scales[room] * through.at(data_.rooms.samples[room])));
   });
 }
 
@@ -255,7 +258,7 @@ double DiscsInRooms::receive() {
     for (std::size_t room = first; room < end; ++room) {
       Arrived sum;
       visitLinks(rooms, room, [&](const SampleSeen& other, bool up) {
-        (up ? sum.above : sum.below) += other.weight * sent_[other.sample];
+        (up ? sum.above : sum.below) += other.of(sent_[other.sample]);
       });
       sum.below += mirrored_[room];
       arrived_[room] = sum;

@@ -54,7 +54,7 @@ void brighten(const Eigen::Array3f& traced, const Eigen::Array3f& all, std::size
 
 Exchange::Exchange(const SceneSamples& samples, const SkyPatches& patches, const BakedRooms& rooms)
     : seen(samples.receivers.size()),
-      mirrored_sums(samples.receivers.size(), 0.0f),
+      mirrored_sums(samples.receivers.size(), Eigen::Array3f::Zero()),
       samples_(samples),
       patches_(patches),
       rooms_(rooms),
@@ -140,9 +140,9 @@ Eigen::Array3f Exchange::sentBy(const Sending& sends, const SumsOfAll& has, std:
 
 Arrived Exchange::received(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const {
   Arrived sum;
-  sum.below.setConstant(mirrored_sums[sample]);
+  sum.below = mirrored_sums[sample];
   visitSeen(sample, all, [&](const SampleSeen& other, bool up) {
-    (up ? sum.above : sum.below) += other.weight * sent[other.sample];
+    (up ? sum.above : sum.below) += other.of(sent[other.sample]);
   });
   return sum;
 }
@@ -151,7 +151,7 @@ Arrived Exchange::receivedOf(const Sent& sent, std::size_t sample) const {
   Arrived sum;
   const auto lit = [&](std::uint32_t other) { return sent.any[other] != 0; };
   visitSeen(sample, lit, [&](const SampleSeen& other, bool up) {
-    (up ? sum.above : sum.below) += other.weight * sent.light[other.sample];
+    (up ? sum.above : sum.below) += other.of(sent.light[other.sample]);
   });
   return sum;
 }
@@ -201,7 +201,7 @@ std::vector<Arrived> Exchange::receivedOf(const LookedFor& sent, std::vector<Arr
       const float from_m = (places[senderOf(other.sample)] - places[i]).norm();
       const float looked = lookedForFrom(sent.lamp_m[other.sample], from_m);
       const Eigen::Array3f met = sent.sent.light[other.sample] - looked * sent.part[other.sample];
-      (up ? found[i].above : found[i].below) += other.weight * met.max(0.0f);
+      (up ? found[i].above : found[i].below) += other.of(met.max(0.0f));
     });
   });
   return found;

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "light/bake/gather/links.h"
 #include "light/bake/gather/sent_light.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/transport_data.h"
@@ -29,28 +30,14 @@ struct SampleHits {
   bool outdoors = false;                     ///< sees clearly more of the sky than of surfaces
 };
 
-/// A sample that another one sees, and what its luminance × π counts there, in illuminance.
-struct SampleSeen {
-  std::uint32_t sample;
-  float weight;
-};
-
 /// A ray from a sample to one that it sees.
 struct RaySeen {
   std::uint32_t from;       ///< the one that it sees
   std::uint32_t direction;  ///< of its half of the sphere
   Eigen::Vector3f towards;
-  float weight;  ///< of the luminance × π that arrives along it, in the sample's illuminance
+  float weight;     ///< of the luminance × π that arrives along it, in the sample's illuminance
+  PackedTint tint;  ///< by glass on its way
 };
-
-/// Calls visit(SampleSeen, whether it is seen above the horizon) for all that a room sees.
-template <typename Visit>
-void visitLinks(const BakedRooms& rooms, std::size_t room, const Visit& visit) {
-  for (std::uint32_t k = rooms.first[room]; k < rooms.first[room + 1]; ++k) {
-    const BakedRooms::Link link = rooms.links[k];
-    visit(SampleSeen{link.sample(), rooms.scales[room] * BakedRooms::weightOf(link)}, k < rooms.below[room]);
-  }
-}
 
 class Exchange {
  public:
@@ -62,8 +49,10 @@ class Exchange {
   /// To be called when `rooms` is filled: what they see is then known by their links, not by `seen`.
   void useRooms();
 
-  std::vector<SampleHits> seen;      ///< of each sample
-  std::vector<float> mirrored_sums;  ///< sky by way of the ground as a mirror, without colour, lx
+  std::vector<SampleHits> seen;  ///< of each sample
+  /// By glass on the way of each of their hits; empty: there is none.
+  std::vector<std::vector<PackedTint>> tints;
+  std::vector<Eigen::Array3f> mirrored_sums;  ///< sky by way of the ground as a mirror, lx
 
   RaySeen ray(std::size_t sample, std::size_t hit) const {
     const SampleHits& view = seen[sample];
@@ -72,7 +61,8 @@ class Exchange {
     const SkyPatches::Ray& ray = patches_.coarseRays()[up ? direction : direction + SkyPatches::kAbove];
     return {view.hits[hit].sample(), direction, ray.towards,  // the ray's own weight is in the scales
             ray.solid_angle * samples_.receivers[sample].weight(ray.towards) *
-                (up ? view.scale_up : view.scale_down) / kPiFloat};
+                (up ? view.scale_up : view.scale_down) / kPiFloat,
+            tints.empty() ? PackedTint() : tints[sample][hit]};
   }
   /// Of all that is `seen`, puts samples beside it in the place of those that are of no use: if any, such as
   /// they are not parted from. Parallel.
@@ -181,7 +171,7 @@ void Exchange::visitSeen(std::size_t sample, const Wanted& wanted, const Visit& 
   if (room != LightMesh::kNone) {
     return visitLinks(rooms_, room, [&](const SampleSeen& other, bool up) {
       const std::uint32_t sent = sent_to_rooms_.empty() ? other.sample : sent_to_rooms_[other.sample];
-      if (wanted(sent)) visit(SampleSeen{sent, other.weight}, up);
+      if (wanted(sent)) visit(SampleSeen{sent, other.weight, other.tint}, up);
     });
   }
   const SampleHits& view = seen[sample];
@@ -190,7 +180,7 @@ void Exchange::visitSeen(std::size_t sample, const Wanted& wanted, const Visit& 
     const RaySeen along = ray(sample, k);
     const bool up = k < view.up;
     const float scattered = up || !isGround(along.from) ? 1.0f : scattered_down_[along.direction];
-    visit(SampleSeen{along.from, along.weight * scattered}, up);
+    visit(SampleSeen{along.from, along.weight * scattered, along.tint}, up);
   }
 }
 

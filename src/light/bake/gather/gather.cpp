@@ -7,19 +7,20 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "light/bake/gather/exchange.h"
-#include "light/bake/gather/ground_mirror.h"
 #include "light/bake/gather/lamp_bounces.h"
 #include "light/bake/gather/rooms.h"
+#include "light/bake/gather/sky_in_ground.h"
 #include "light/bake/samples/adaptive_probe.h"
 #include "light/bake/samples/burial_test.h"
 #include "light/bake/samples/parting_walls.h"
 #include "light/patches/angles.h"
 #include "light/shading/mirror_lobe.h"
+#include "sunlit/light/visibility.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"
-#include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {
 namespace {
@@ -37,11 +38,11 @@ constexpr int kBouncesBeforeAll = 3;
 
 using Row = std::array<float, kPatches>;
 
-/// Adds a row of coefficients, each times `factor` and one of `shares`.
-SUNLIT_WIDE_VECTOR_CLONES
-void addShares(float factor, const float* shares, const std::uint8_t* coefficients, float* row) {
-  for (std::size_t p = 0; p < kPatches; ++p)
-    row[p] += factor * shares[p] * static_cast<float>(coefficients[p]);
+/// Whether any glass of the scene changes the colour of light.
+bool hasTintedGlass(const scene::Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& material) {
+    return isGlass(material) && !PackedTint(material.base_color.value).white();
+  });
 }
 
 class Gatherer {
@@ -60,6 +61,10 @@ class Gatherer {
 
   std::vector<bool> gather(TransportData* data) {
     data->direct.resize(count_);
+    if (hasTintedGlass(*geometry_.scene)) {
+      data->direct_tints.resize(count_);
+      exchange_.tints.resize(count_);
+    }
     data->above.resize(count_);
     data->below.resize(count_);
     findStarts();
@@ -77,11 +82,14 @@ class Gatherer {
       const RoomBaker rooms(scene_, samples_, exchange_);
       rooms.look(data);
       exchange_.useRooms();
-      lookIntoGround(*data);
+      const SkyInGround in_ground(samples_, exchange_);
+      SkyInGround::OfSamples mirrored = in_ground.find(*data);
       if (all) {
         rooms.finish(&data->rooms);
-        lookIntoGroundOfRooms(data);
+        in_ground.tellRooms(mirrored, data);
       }
+      mirrored_ = std::move(mirrored.coefficients);
+      exchange_.mirrored_sums = std::move(mirrored.sums);
     }
     for (int bounce = 0; bounce < options_.bounces; ++bounce)
       passOn(data, (1.0 - direct_share) / options_.bounces);
@@ -97,10 +105,12 @@ class Gatherer {
   /// Sums over the rays of one sample.
   struct Look {
     Row row{};
+    Eigen::Array3f open = Eigen::Array3f::Zero();  ///< of `row`, in sum, with its colours
     BurialTest burial;
     float all = 0.0f, inside = 0.0f, leaves = 0.0f, blocked_up = 0.0f, blocked_down = 0.0f,
           coarse_blocked_up = 0.0f;
     std::array<SampleAndByte, SkyPatches::kCoarse> hits;  ///< as SampleHits::hits
+    std::array<PackedTint, SkyPatches::kCoarse> tints;    ///< of each
     std::size_t hit_count = 0, up = 0;
   };
 
@@ -161,9 +171,9 @@ class Gatherer {
   };
   void note(const SkyPatches::Ray& ray, const Cast& cast, std::uint32_t sample, Look* look) const {
     std::uint32_t from = LightMesh::kNone;
-    cast.hits.visit(cast.lane, [&](const HitPacket& hits, float share) {
+    cast.hits.visit(cast.lane, [&](const HitPacket& hits, float share, PackedTint tint) {
       from = sampleAt(scene_, samples_, {hits, cast.lane, ray.towards});
-      noteMet(ray, {hits.triangle[cast.lane], from, cast.weight * share}, look);
+      noteMet(ray, {hits.triangle[cast.lane], from, cast.weight * share, tint}, look);
     });
     look->all += cast.weight;
     look->burial.add({cast.normal, ray.towards, cast.weight, cast.hits.ends, cast.lane}, geometry_, traits_);
@@ -177,6 +187,7 @@ class Gatherer {
           SkyPatches::solidAngle(ray.patch) * samples_.receivers[sample].weight(ray.towards);
     }
     const auto direction = static_cast<std::uint32_t>(up ? ray.coarse : ray.coarse - SkyPatches::kAbove);
+    look->tints[look->hit_count] = cast.hits.tintByChance(cast.lane);
     look->hits[look->hit_count++] = SampleAndByte::of(from, direction);
     look->up += up;
   }
@@ -185,10 +196,12 @@ class Gatherer {
     std::uint32_t triangle;  ///< as HitPacket::triangle
     std::uint32_t from;      ///< sample
     float weight;
+    PackedTint tint;  ///< by glass before it
   };
   void noteMet(const SkyPatches::Ray& ray, const MetOnWay& met, Look* look) const {
     if (met.triangle == HitPacket::kNothing) {
       look->row[static_cast<std::size_t>(ray.patch)] += met.weight;
+      look->open += met.tint.times(Eigen::Array3f::Constant(met.weight));
       return;
     }
     if (met.from == LightMesh::kNone) {
@@ -206,6 +219,9 @@ class Gatherer {
     const float scale = told > 0.0f ? kPiFloat * receiver.open() / told : 0.0f;
     for (float& value : look->row) value *= scale;
     data->direct.set(sample, look->row.data());
+    if (!data->direct_tints.empty()) data->direct_tints[sample] = PackedTint(look->open);
+    if (!exchange_.tints.empty())
+      exchange_.tints[sample].assign(look->tints.begin(), look->tints.begin() + look->hit_count);
     data->above.hides[sample] = look->blocked_up * scale / kPiFloat;
     data->below.hides[sample] = look->blocked_down * scale / kPiFloat;
     SampleHits& seen = exchange_.seen[sample];
@@ -220,54 +236,6 @@ class Gatherer {
       // The coarse rays stand for all that hit something.
       seen.scale_up *= std::clamp(look->blocked_up / look->coarse_blocked_up, 0.25f, 4.0f);
     }
-  }
-
-  /// The sky that each sample sees mirrored by the ground.
-  void lookIntoGround(const TransportData& data) {
-    const GroundMirror& mirror = GroundMirror::get();
-    mirrored_.resize(count_);
-    tbb::parallel_for(std::size_t{0}, (count_ + kSamplesOfTask - 1) / kSamplesOfTask, [&](std::size_t block) {
-      for (std::size_t i = block * kSamplesOfTask; i < std::min(count_, (block + 1) * kSamplesOfTask); ++i) {
-        const Row row = mirroredBy(data, mirror, i, Exchange::all);
-        mirrored_.set(i, row.data());
-        for (const float value : row) exchange_.mirrored_sums[i] += value;
-      }
-    });
-  }
-
-  /// Sun and moon in polished floors are looked for by rays, sky by sky.
-  void lookIntoGroundOfRooms(TransportData* data) const {
-    BakedRooms& rooms = data->rooms;
-    rooms.mirrored.resize(rooms.samples.size());
-    for (std::size_t room = 0; room < rooms.samples.size(); ++room)
-      rooms.mirrored.copy(mirrored_, rooms.samples[room], room);
-    if (rooms.glossy.empty()) return;
-    const GroundMirror& mirror = GroundMirror::get();
-    tbb::parallel_for(std::size_t{0}, rooms.glossy.size(), [&](std::size_t g) {
-      const std::uint32_t room = rooms.glossy[g].room;
-      const auto rough = [this](std::uint32_t ground) { return !exchange_.isPolished(ground); };
-      rooms.mirrored.set(room, mirroredBy(*data, mirror, rooms.samples[room], rough).data());
-    });
-  }
-
-  /// What a sample sees mirrored by ground samples that are wanted(number).
-  template <typename Wanted>
-  Row mirroredBy(const TransportData& data, const GroundMirror& mirror, std::size_t sample,
-                 const Wanted& wanted) const {
-    Row row{};
-    for (std::size_t k = exchange_.seen[sample].up; k < exchange_.seen[sample].hits.size(); ++k) {
-      const RaySeen ray = exchange_.ray(sample, k);
-      if (wanted(ray.from)) addMirrored(data, mirror, ray, &row);
-    }
-    return row;
-  }
-
-  void addMirrored(const TransportData& data, const GroundMirror& mirror, const RaySeen& ray,
-                   Row* row) const {
-    if (!exchange_.isGround(ray.from)) return;
-    const GroundMirror::Row& shares = mirror.towards(ray.direction, samples_.paints[ray.from].roughness);
-    addShares(ray.weight * data.direct.scales[ray.from], shares.data(), data.direct.row(ray.from),
-              row->data());
   }
 
   /// Adds one bounce: what every sample passes on of all that it has by now.
@@ -302,7 +270,7 @@ class Gatherer {
     };
     const auto add = [&](std::size_t from, const Eigen::Array3f& of_direct,
                          const Eigen::Array3f& of_bounced) {
-      addCoefficients(data.direct, from, of_direct);
+      addCoefficients(data.direct, from, data.directTint(from).times(of_direct));
       for (const PassedOn* part : {&data.above, &data.below}) {
         addCoefficients(part->coefficients, from,
                         of_bounced * Eigen::Map<const Eigen::Array3f>(part->tints[from].data()));
@@ -319,6 +287,12 @@ class Gatherer {
     const std::uint8_t* row;
     bool up;
   };
+  /// How much the luminance of what is sent, of the colour of `sum`, counts.
+  static float lightOf(const SampleSeen& seen, const Eigen::Array3f& sum) {
+    if (seen.tint.white()) return seen.weight;
+    const float sent = LinearRgb(sum).luminance();
+    return sent > 0.0f ? LinearRgb(seen.of(sum)).luminance() / sent : seen.weight;
+  }
   static void prefetchRow(const std::uint8_t* row) {
     constexpr std::size_t kCacheLine = 64;
     for (std::size_t at = 0; at < kPatches; at += kCacheLine) __builtin_prefetch(row + at);
@@ -330,7 +304,8 @@ class Gatherer {
     addTimes(mirrored_.scales[i], mirrored_.row(i), below.data());
     std::vector<Sender> senders;
     exchange_.visitSeen(i, Exchange::all, [&](const SampleSeen& seen, bool up) {
-      senders.push_back({seen.weight * sent.scales[seen.sample], sent.row(seen.sample), up});
+      senders.push_back(
+          {lightOf(seen, others[seen.sample]) * sent.scales[seen.sample], sent.row(seen.sample), up});
     });
     constexpr std::size_t kAhead = 6;  // rows lie all over the memory
     for (std::size_t k = 0; k < senders.size(); ++k) {
@@ -354,7 +329,7 @@ class Gatherer {
   Exchange exchange_;
   std::size_t count_;
   std::vector<std::uint32_t> starts_;  ///< samples whose rays are cast
-  Coefficients mirrored_;              ///< sky by way of the ground as a mirror, without colour
+  Coefficients mirrored_;              ///< sky by way of the ground as a mirror, luminance
   std::mutex progress_mutex_;
   double done_ = 0.0;
 };

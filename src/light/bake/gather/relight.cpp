@@ -32,8 +32,8 @@ class Lights {
         through_(through) {}
 
   /// Illuminance of a sample by the sky that it sees, lx.
-  Eigen::Array3f direct(const Coefficients& direct, std::size_t sample) const {
-    return sky_.times(direct.row(sample)) * direct.scales[sample];
+  Eigen::Array3f direct(const TransportData& data, std::size_t sample) const {
+    return data.directTint(sample).times(sky_.times(data.direct.row(sample)) * data.direct.scales[sample]);
   }
   /// The part of it from below the horizon, where no surface lies.
   Eigen::Array3f fromBelow(float coefficient) const {
@@ -89,7 +89,7 @@ struct FromSurfaces {
 NodeLight lightOf(const TransportData& data, const Lights& lights, std::size_t sample,
                   const FromSurfaces& from) {
   const float open = data.direct.row(sample)[SkyPatches::kBelow] * data.direct.scales[sample];
-  return {lights.direct(data.direct, sample) + from.above + from.below,
+  return {lights.direct(data, sample) + from.above + from.below,
           surroundingsOf(from.above, data.above.hides[sample], from.below + lights.fromBelow(open),
                          data.below.hides[sample] + open / kPiFloat)};
 }

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "light/bake/gather/room_directions.h"
 #include "light/bake/gather/room_mirrors.h"
-#include "light/patches/even_directions.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/random.h"
 
@@ -21,9 +21,6 @@ namespace {
 /// them; fewer where there are many rooms, so that the links of the first 780,000 take 800 MB at most, about.
 constexpr std::size_t kMostDirections = 2048, kFewestDirections = 512;
 constexpr std::size_t kMostLinks = 200'000'000;
-/// So many directions stand in the place of one where what is open or outdoors ends: most of a room's light
-/// may come through a window that takes a hundredth of all that is seen.
-constexpr std::size_t kFine = 8;
 
 /// Puts together what was seen twice.
 void merge(std::vector<SampleSeen>* seen) {
@@ -32,7 +29,11 @@ void merge(std::vector<SampleSeen>* seen) {
   std::size_t kept = 0;
   for (const SampleSeen& other : *seen) {
     if (kept > 0 && (*seen)[kept - 1].sample == other.sample) {
-      (*seen)[kept - 1].weight += other.weight;
+      SampleSeen& both = (*seen)[kept - 1];
+      if (!(both.tint.white() && other.tint.white())) {
+        both.tint = PackedTint(both.of(Eigen::Array3f::Ones()) + other.of(Eigen::Array3f::Ones()));
+      }
+      both.weight += other.weight;
     } else {
       (*seen)[kept++] = other;
     }
@@ -50,72 +51,44 @@ bool seesMany(const SampleHits& seen, const std::vector<std::uint8_t>& others, f
   return static_cast<float>(different) > many * static_cast<float>(seen.hits.size());
 }
 
-/// Returns where those below the horizon begin.
-std::uint32_t pack(const std::array<std::vector<SampleSeen>, 2>& seen, std::vector<BakedRooms::Link>* links,
-                   float* scale) {
+/// What one room sees.
+struct Packed {
+  std::vector<BakedRooms::Link> links;
+  std::vector<PackedTint> tints;  ///< of each
+  std::uint32_t below;            ///< the first that is seen below the horizon
+  float scale;                    ///< of their weights
+};
+Packed pack(const std::array<std::vector<SampleSeen>, 2>& seen) {
+  Packed result{};
   float most = 1e-12f, all = 0.0f, packed = 0.0f;
   for (const auto& half : seen)
     for (const SampleSeen& other : half) most = std::max(most, other.weight);
-  std::uint32_t below = 0;
   for (const auto& half : seen) {
-    below = static_cast<std::uint32_t>(links->size());
+    result.below = static_cast<std::uint32_t>(result.links.size());
     for (const SampleSeen& other : half) {
       const auto root = static_cast<std::uint32_t>(std::lround(255.0f * std::sqrt(other.weight / most)));
-      links->push_back(BakedRooms::Link::of(other.sample, std::max(root, 1u)));
+      result.links.push_back(BakedRooms::Link::of(other.sample, std::max(root, 1u)));
+      result.tints.push_back(other.tint);
       all += other.weight;
-      packed += BakedRooms::weightOf(links->back());
+      packed += BakedRooms::weightOf(result.links.back());
     }
   }
-  *scale = packed > 0.0f ? all / packed : 0.0f;
-  return below;
+  result.scale = packed > 0.0f ? all / packed : 0.0f;
+  return result;
 }
 
 }  // namespace
-
-/// Directions all around, some of which are looked along first.
-struct RoomBaker::Sphere {
-  struct Direction {
-    Eigen::Vector3f towards;  ///< unit
-    int patch;
-  };
-  explicit Sphere(std::size_t count) {
-    for (const Eigen::Vector3f& towards : evenDirections(count))
-      coarse.push_back({towards, SkyPatches::patchAt(towards)});
-    const float beyond = std::cos(1.7f * std::sqrt(4.0f * kPiFloat / static_cast<float>(count)));
-    for (std::uint32_t i = 0; i < count; ++i) {
-      first_beside.push_back(static_cast<std::uint32_t>(beside.size()));
-      for (std::uint32_t k = 0; k < count; ++k)
-        if (k != i && coarse[i].towards.dot(coarse[k].towards) > beyond) beside.push_back(k);
-    }
-    first_beside.push_back(static_cast<std::uint32_t>(beside.size()));
-    std::vector<std::vector<Direction>> nearest(count);
-    for (const Eigen::Vector3f& towards : evenDirections(kFine * count)) {
-      std::size_t best = 0;
-      for (std::size_t i = 1; i < count; ++i)
-        if (coarse[i].towards.dot(towards) > coarse[best].towards.dot(towards)) best = i;
-      nearest[best].push_back({towards, SkyPatches::patchAt(towards)});
-    }
-    for (const std::vector<Direction>& near : nearest) {
-      first_fine.push_back(static_cast<std::uint32_t>(fine.size()));
-      fine.insert(fine.end(), near.begin(), near.end());
-    }
-    first_fine.push_back(static_cast<std::uint32_t>(fine.size()));
-  }
-
-  std::vector<Direction> coarse, fine;
-  std::vector<std::uint32_t> first_fine;            ///< of those nearest to each coarse one; and the end
-  std::vector<std::uint32_t> beside, first_beside;  ///< other coarse ones about each; and the end
-};
 
 /// What a sample sees along many rays: numbers are sums of their weights.
 struct RoomBaker::View {
   std::array<std::vector<SampleSeen>, 2> seen;  ///< above the horizon and below it
   std::array<float, 2> hidden{};
   std::array<float, SkyPatches::kCount> open{};
+  Eigen::Array3f open_color = Eigen::Array3f::Zero();  ///< of `open`, in sum
 
   void add(const SampleSeen& other, float scattered, bool up) {
     hidden[up ? 0 : 1] += other.weight;
-    seen[up ? 0 : 1].push_back({other.sample, other.weight * scattered});
+    seen[up ? 0 : 1].push_back({other.sample, other.weight * scattered, other.tint});
   }
   /// By way of a mirror, which hides what is there: above the horizon or below it is where that is.
   void addMirrored(const SampleSeen& other, bool up) { seen[up ? 0 : 1].push_back(other); }
@@ -127,6 +100,7 @@ struct RoomBaker::View {
     std::array<float, SkyPatches::kCount> row{};
     for (std::size_t p = 0; p < row.size(); ++p) row[p] = kPiFloat * scale * open[p];
     data->direct.set(sample, row.data());
+    if (!data->direct_tints.empty()) data->direct_tints[sample] = PackedTint(open_color);
     for (std::size_t half = 0; half < 2; ++half) {
       float& hides = (half == 0 ? data->above : data->below).hides[sample];
       hides = scale * hidden[half];
@@ -166,7 +140,7 @@ class RoomBaker::Looking {
   Looking(const RoomBaker& baker, const Receiver* receivers, std::size_t count)
       : baker_(baker), group_(receivers, static_cast<int>(count)), views_(count) {}
 
-  std::vector<View> around(const Sphere& sphere) {
+  std::vector<View> around(const RoomDirections& sphere) {
     std::vector<Met> all(sphere.coarse.size());
     const auto count = static_cast<std::uint32_t>(all.size());
     for (std::size_t r = 0; r < all.size(); ++r) cast(r, sphere.coarse[r], &all[r]);
@@ -200,13 +174,14 @@ class RoomBaker::Looking {
     const HitPacket& hits;
     std::array<std::uint32_t, kPacket> senders;
     std::array<float, kPacket> weights;  ///< 0: nothing there
+    std::array<PackedTint, kPacket> tints;
   };
   struct Ray {
     float directions;      ///< for how many it stands
     std::uint32_t number;  ///< its own
   };
 
-  void cast(std::size_t turn, const Sphere::Direction& direction, Met* met) const {
+  void cast(std::size_t turn, const RoomDirections::Direction& direction, Met* met) const {
     met->cast = group_.weigh(direction.towards, met->weights.data());
     met->open = 0;
     met->outdoors = met->dim = 0;
@@ -225,7 +200,7 @@ class RoomBaker::Looking {
   /// Whether sky, or what is outdoors, ends for any at a coarse direction or beside it. A gap that one's ray
   /// has met all look for finely: by those alone whose ray met it, it would count where it is met, by what it
   /// takes there, and where it is missed not at all.
-  static bool isEdge(const Sphere& sphere, std::size_t r, const std::vector<Met>& all) {
+  static bool isEdge(const RoomDirections& sphere, std::size_t r, const std::vector<Met>& all) {
     Lanes open = 0, shut = 0, dim = 0, bright = 0, outdoors = 0, indoors = 0;
     const auto add = [&](const Met& met) {
       open |= met.open;
@@ -246,43 +221,51 @@ class RoomBaker::Looking {
     HitPacket hits;
     std::array<Eigen::Vector3f, kPacket> towards;
     std::array<float, kPacket> weights;          ///< with all mirrors on the way
+    std::array<PackedTint, kPacket> tints;       ///< by glass before the first of them
     std::array<std::uint32_t, kPacket> samples;  ///< of the mirrors
   };
 
-  void add(const Sphere::Direction& direction, const Met& met, const Ray& ray) {
+  void add(const RoomDirections::Direction& direction, const Met& met, const Ray& ray) {
     if (met.cast == 0) return;
     std::array<float, kPacket> weights{};
     for (std::size_t i = 0; i < kPacket; ++i)
       if (ReceiverGroup::has(met.cast, static_cast<int>(i))) weights[i] = ray.directions * met.weights[i];
     for (const HitLayers::Veil& veil : met.hits.veils) {
-      Layer layer{veil.hits, {}, weights};
+      Layer layer{veil.hits, {}, weights, {}};
       for (std::size_t i = 0; i < kPacket; ++i) {
         layer.weights[i] *= veil.shares[i];
+        layer.tints[i] = veil.tints[i];
         if (layer.weights[i] > 0.0f)
           layer.senders[i] = senderAt({veil.hits, static_cast<int>(i), direction.towards});
       }
       addLayer(direction, layer, ray.number);
     }
-    for (std::size_t i = 0; i < kPacket; ++i) weights[i] *= met.hits.shareOfEnd(static_cast<int>(i));
+    Layer layer{met.hits.ends, met.senders, weights, {}};
     for (std::size_t i = 0; i < views_.size(); ++i) {
-      if (ReceiverGroup::has(met.open, static_cast<int>(i)))
-        views_[i].open[static_cast<std::size_t>(direction.patch)] += weights[i];
+      const int lane = static_cast<int>(i);
+      layer.weights[i] *= met.hits.shareOfEnd(lane);
+      layer.tints[i] = met.hits.tintOfEnd(lane);
+      if (!ReceiverGroup::has(met.open, lane)) continue;
+      views_[i].open[static_cast<std::size_t>(direction.patch)] += layer.weights[i];
+      views_[i].open_color += layer.tints[i].times(Eigen::Array3f::Constant(layer.weights[i]));
     }
-    addLayer(direction, {met.hits.ends, met.senders, weights}, ray.number);
+    addLayer(direction, layer, ray.number);
   }
 
-  void addLayer(const Sphere::Direction& direction, const Layer& layer, std::uint32_t number) {
+  void addLayer(const RoomDirections::Direction& direction, const Layer& layer, std::uint32_t number) {
     InMirrors in_mirrors;
     for (int lane = 0; lane < group_.count(); ++lane) {
       const auto i = static_cast<std::size_t>(lane);
       if (!(layer.weights[i] > 0.0f)) continue;
       const std::uint32_t from = layer.senders[i];
       if (from == LightMesh::kNone) continue;
-      views_[i].add({from, layer.weights[i]}, baker_.exchange_.scattered(from, direction.towards),
+      views_[i].add({from, layer.weights[i], layer.tints[i]},
+                    baker_.exchange_.scattered(from, direction.towards),
                     direction.patch != SkyPatches::kBelow);
       if (!baker_.exchange_.mirrors(from)) continue;
       in_mirrors.lanes |= Lanes{1} << lane;
       in_mirrors.weights[i] = layer.weights[i];
+      in_mirrors.tints[i] = layer.tints[i];
       in_mirrors.samples[i] = from;
     }
     if (in_mirrors.lanes == 0) return;
@@ -299,7 +282,8 @@ class RoomBaker::Looking {
 
   /// Adds what mirrors show, and mirrors in these. The sky in them others add: GroundMirror, and
   /// Sending::direct of those that are not level.
-  void followMirrors(const Sphere::Direction& direction, std::uint32_t number, InMirrors* in_mirrors) {
+  void followMirrors(const RoomDirections::Direction& direction, std::uint32_t number,
+                     InMirrors* in_mirrors) {
     // The same facets for all samples: what chance does to one would be seen beside the next.
     static const EvenPoints even(0);
     constexpr std::size_t kMostMirrors = 3;
@@ -312,7 +296,8 @@ class RoomBaker::Looking {
         const bool known = from != LightMesh::kNone;
         if (known) {
           views_[i].addMirrored(
-              {from, in_mirrors->weights[i] * baker_.exchange_.scattered(from, in_mirrors->towards[i])},
+              {from, in_mirrors->weights[i] * baker_.exchange_.scattered(from, in_mirrors->towards[i]),
+               in_mirrors->tints[i]},
               direction.patch != SkyPatches::kBelow);
         }
         in_mirrors->samples[i] = from;
@@ -348,7 +333,7 @@ class RoomBaker::Looking {
 };
 
 std::vector<RoomBaker::View> RoomBaker::lookFrom(const std::uint32_t* lookers, std::size_t count,
-                                                 const Sphere& sphere) const {
+                                                 const RoomDirections& sphere) const {
   std::array<Receiver, kPacket> receivers;
   for (std::size_t i = 0; i < count; ++i) receivers[i] = samples_.receivers[lookers[i]];
   return Looking(*this, receivers.data(), count).around(sphere);
@@ -359,10 +344,9 @@ void RoomBaker::look(TransportData* data) const {
   rooms.samples = lookers();
   const std::size_t count = rooms.samples.size();
   if (count == 0) return;
-  const Sphere sphere(std::clamp(2 * kMostLinks / count, kFewestDirections, kMostDirections));
-  std::vector<std::vector<BakedRooms::Link>> links(count);
-  rooms.below.resize(count);
-  rooms.scales.resize(count);
+  const RoomDirections sphere(std::clamp(2 * kMostLinks / count, kFewestDirections, kMostDirections));
+  const bool tinted = !data->direct_tints.empty();
+  std::vector<Packed> packed(count);
   tbb::parallel_for(std::size_t{0}, (count + kPacket - 1) / kPacket, [&](std::size_t p) {
     const std::size_t first = p * kPacket;
     std::vector<View> views =
@@ -370,22 +354,26 @@ void RoomBaker::look(TransportData* data) const {
     for (std::size_t i = 0; i < views.size(); ++i) {
       const std::uint32_t sample = rooms.samples[first + i];
       views[i].finish(samples_.receivers[sample], sample, data);
-      std::vector<BakedRooms::Link>& packed = links[first + i];
-      rooms.below[first + i] = pack(views[i].seen, &packed, &rooms.scales[first + i]);
+      packed[first + i] = pack(views[i].seen);
+      if (!tinted) packed[first + i].tints = {};
     }
   });
   std::size_t sum = 0;
-  for (const auto& of_room : links) sum += of_room.size();
+  for (const Packed& room : packed) sum += room.links.size();
   if (sum > std::numeric_limits<std::uint32_t>::max())
     throw std::runtime_error("bake of light: rooms of this scene see too much of each other; fewer samples");
   std::vector<BakedRooms::Link>& all = rooms.links.own();
+  std::vector<PackedTint>& tints = rooms.link_tints.own();
   all.reserve(sum);
-  for (std::size_t room = 0; room < count; ++room) {
+  if (tinted) tints.reserve(sum);
+  for (Packed& room : packed) {
     const auto start = static_cast<std::uint32_t>(all.size());
     rooms.first.push_back(start);
-    rooms.below[room] += start;
-    all.insert(all.end(), links[room].begin(), links[room].end());
-    std::vector<BakedRooms::Link>().swap(links[room]);
+    rooms.below.push_back(start + room.below);
+    rooms.scales.push_back(room.scale);
+    all.insert(all.end(), room.links.begin(), room.links.end());
+    tints.insert(tints.end(), room.tints.begin(), room.tints.end());
+    room = {};
   }
   rooms.first.push_back(static_cast<std::uint32_t>(all.size()));
 }

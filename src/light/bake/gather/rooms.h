@@ -2,6 +2,7 @@
 #pragma once
 
 #include "light/bake/gather/exchange.h"
+#include "light/bake/gather/room_directions.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/transport_data.h"
 
@@ -20,11 +21,11 @@ class RoomBaker {
   void finish(BakedRooms* rooms) const;
 
  private:
-  struct Sphere;
   struct View;
   class Looking;
   std::vector<std::uint32_t> lookers() const;
-  std::vector<View> lookFrom(const std::uint32_t* lookers, std::size_t count, const Sphere& sphere) const;
+  std::vector<View> lookFrom(const std::uint32_t* lookers, std::size_t count,
+                             const RoomDirections& sphere) const;
   void addSources(BakedRooms* rooms) const;
   void addPoints(BakedRooms* rooms) const;
   void addGlossy(BakedRooms* rooms) const;

@@ -14,9 +14,9 @@ Eigen::Array3f sumOf(const PassedOn& part, std::size_t sample) {
 }  // namespace
 
 SumsOfAll sumsOf(const TransportData& data) {
-  SumsOfAll sums{std::vector<float>(data.sampleCount()), std::vector<Arrived>(data.sampleCount())};
+  SumsOfAll sums{std::vector<Eigen::Array3f>(data.sampleCount()), std::vector<Arrived>(data.sampleCount())};
   tbb::parallel_for(std::size_t{0}, data.sampleCount(), [&](std::size_t i) {
-    sums.direct[i] = data.direct.sum(i);
+    sums.direct[i] = data.directTint(i).times(Eigen::Array3f::Constant(data.direct.sum(i)));
     sums.passed_on[i] = {sumOf(data.above, i), sumOf(data.below, i)};
   });
   return sums;

@@ -37,7 +37,7 @@ struct StraightLight {
 
 /// By the sum over the patches of the sky, of every sample.
 struct SumsOfAll {
-  std::vector<float> direct;
+  std::vector<Eigen::Array3f> direct;
   std::vector<Arrived> passed_on;
 };
 SumsOfAll sumsOf(const TransportData& data);

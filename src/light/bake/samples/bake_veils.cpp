@@ -18,8 +18,9 @@ struct Veil {
   float distance;      ///< in lengths of the direction
   unsigned primitive;  ///< by Embree's number
   float u, v;
-  float share;  ///< of the light that comes through it or from it, what comes from it
-  bool stops;   ///< the ray, by chance
+  float share;          ///< of the light that comes through it or from it, what comes from it
+  bool stops;           ///< the ray, by chance
+  Eigen::Array3f tint;  ///< of what comes through
 };
 
 /// Of a ray to the normal of what it meets.
@@ -34,8 +35,13 @@ float cosineOf(const RTCFilterFunctionNArguments& at, unsigned i) {
 Veil veilAt(const RTCFilterFunctionNArguments& at, const Cutouts::Query& surface, unsigned i) {
   const float u = RTCHitN_u(at.hit, at.N, i), v = RTCHitN_v(at.hit, at.N, i);
   const float share = surface.share(u, v, cosineOf(at, i));
-  return {RTCRayN_tfar(at.ray, at.N, i), RTCHitN_primID(at.hit, at.N, i), u, v, share,
-          surface.isThere(share, u, v)};
+  return {RTCRayN_tfar(at.ray, at.N, i),
+          RTCHitN_primID(at.hit, at.N, i),
+          u,
+          v,
+          share,
+          surface.isThere(share, u, v),
+          surface.tint()};
 }
 
 void stopByChance(const RTCFilterFunctionNArguments* at) {
@@ -101,6 +107,8 @@ void BakeVeils::add(const RayPacket& rays, HitLayers* layers) const {
   begin(&query.context);
   intersect(rays.valid, scene_.get(), {Query::note, &query.context}, &packet);
   std::fill_n(layers->through, RayPacket::kSize, 1.0f);
+  std::fill_n(layers->through_tints, RayPacket::kSize, PackedTint());
+  std::fill_n(layers->stopped_tints, RayPacket::kSize, PackedTint());
   for (int i = 0; i < RayPacket::kSize; ++i) {
     if (rays.valid[i] == 0 || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     const std::uint32_t triangle = triangles_[packet.hit.primID[i]];
@@ -122,24 +130,35 @@ void BakeVeils::stop(const int* valid, RTCRay16* rays) const {
 void BakeVeils::put(const OfRay& ray, HitLayers* layers) const {
   const int i = ray.lane;
   bool stopped = false;
+  Eigen::Array3f left = Eigen::Array3f::Ones();
+  PackedTint tint;
   for (std::size_t k = 0; k < ray.met.size(); ++k) {
     const Veil& veil = ray.met[k];
     const Hit hit{triangles_[veil.primitive], veil.u, veil.v, veil.distance};
-    if (!stopped && veil.stops) {
+    const auto stop = [&] {
+      if (stopped) return;
       layers->stopped.set(i, hit);
+      layers->stopped_tints[i] = tint;
       stopped = true;
-    }
-    const float left = layers->through[i] * (1.0f - veil.share);
-    if (left < kNone) {
+    };
+    if (veil.stops) stop();
+    left *= (1.0f - veil.share) * veil.tint;
+    const float luminance = LinearRgb(left).luminance();
+    if (luminance < kNone) {
       layers->ends.set(i, hit);
-      if (!stopped) layers->stopped.set(i, hit);
+      layers->through_tints[i] = tint;
+      stop();
       return;
     }
     if (layers->veils.size() == k) layers->veils.push_back(HitLayers::Veil::none());
     layers->veils[k].hits.set(i, hit);
-    layers->veils[k].shares[i] = layers->through[i] - left;
-    layers->through[i] = left;
+    layers->veils[k].shares[i] = std::max(layers->through[i] - luminance, 0.0f);
+    layers->veils[k].tints[i] = tint;
+    layers->through[i] = luminance;
+    tint = PackedTint(left);
   }
+  layers->through_tints[i] = tint;
+  if (!stopped) layers->stopped_tints[i] = tint;
 }
 
 }  // namespace sunlit::light

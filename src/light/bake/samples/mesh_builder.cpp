@@ -105,7 +105,7 @@ void MeshBuilder::lookAround(const std::vector<std::uint32_t>& from) {
             all[i] += weight;
             burials[i].add({receivers[i].normal, directions_[r].towards, weight, hits.ends, lane}, geometry_,
                            traits_);
-            hits.visit(lane, [&](const HitPacket& met, float share) {
+            hits.visit(lane, [&](const HitPacket& met, float share, PackedTint) {
               const std::uint32_t hit = met.triangle[i];
               if (hit == HitPacket::kNothing) {
                 open[i] += share * weight * directions_[r].towards.homogeneous();

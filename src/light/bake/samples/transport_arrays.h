@@ -14,6 +14,7 @@ void visitArrays(Data& data, const Visit& visit) {
   visit(data.mesh.shares);
   visit(data.direct.rows);
   visit(data.direct.scales);
+  visit(data.direct_tints);
   for (auto* part : {&data.above, &data.below}) {
     visit(part->coefficients.rows);
     visit(part->coefficients.scales);
@@ -31,8 +32,10 @@ void visitArrays(Data& data, const Visit& visit) {
   visit(data.rooms.below);
   visit(data.rooms.scales);
   visit(data.rooms.links);
+  visit(data.rooms.link_tints);
   visit(data.rooms.mirrored.rows);
   visit(data.rooms.mirrored.scales);
+  visit(data.rooms.mirrored_tints);
   visit(data.rooms.sources);
   visit(data.rooms.points);
   visit(data.rooms.glossy);

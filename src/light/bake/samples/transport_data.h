@@ -10,6 +10,7 @@
 #include "light/bake/samples/leaf_openness.h"
 #include "light/bake/samples/light_mesh.h"
 #include "light/bake/samples/light_place.h"
+#include "light/bake/samples/packed_tint.h"
 #include "light/bake/samples/sample_and_byte.h"
 #include "light/patches/sky_patches.h"
 #include "sunlit/image/kept_array.h"
@@ -77,10 +78,12 @@ struct BakedRooms {
   image::KeptArray<std::uint32_t> below;  ///< of each, into `links`: the first that is seen below the horizon
   image::KeptArray<float> scales;         ///< of each room's weights
   image::KeptArray<Link> links;
+  image::KeptArray<PackedTint> link_tints;  ///< by glass on the way, of each of them; empty: there is none
 
-  /// Of each room: sky by way of the ground as a mirror, without colour; of those in `glossy` but for floors
-  /// that are polished.
+  /// Of each room: sky by way of the ground as a mirror, luminance; of those in `glossy` but for floors that
+  /// are polished.
   Coefficients mirrored;
+  image::KeptArray<PackedTint> mirrored_tints;  ///< its colour by glass; empty: there is none
 
   /// A sample that is seen.
   struct Source {
@@ -108,6 +111,8 @@ struct BakedRooms {
 struct TransportData {
   LightMesh mesh;
   Coefficients direct;  ///< straight from the sky
+  /// Its colour by glass on the way, in the mean over an even sky; empty: there is no such glass.
+  image::KeptArray<PackedTint> direct_tints;
   /// Surfaces that a sample sees above the horizon, such as walls and leaves, and below it, mostly the
   /// ground: they differ in brightness, and mirrors look at the one or the other.
   PassedOn above, below;
@@ -116,6 +121,9 @@ struct TransportData {
   BakedRooms rooms;
 
   std::size_t sampleCount() const { return direct.scales.size(); }
+  PackedTint directTint(std::size_t sample) const {
+    return direct_tints.empty() ? PackedTint() : direct_tints[sample];
+  }
   /// Where each sample lies, about: at one of the nodes that have its light. Found when first asked for.
   const std::vector<Eigen::Vector3f>& places(const Geometry& geometry) const;
   /// Whoever looked at all of it has done so; pictures look at a few places of it.

@@ -80,7 +80,7 @@ Outlooks outlooks(const Side* first, int count, const Eigen::Vector3f& place, Su
   probe(around->rays, pattern, {receivers.data(), count},
         [&](int i, std::size_t r, float weight, const HitLayers& hits) {
           Outlook& outlook = result[static_cast<std::size_t>(i)];
-          hits.visit(i, [&](const HitPacket& met, float share) {
+          hits.visit(i, [&](const HitPacket& met, float share, PackedTint) {
             const std::uint32_t hit = met.triangle[i];
             if (hit == HitPacket::kNothing) {
               (pattern[r].towards.z() > 0.0f ? outlook.up : outlook.down) += share * weight;

@@ -8,8 +8,10 @@ namespace {
 /// Samples that a surface takes its light from.
 struct SampleRows {
   struct Row {
+    std::uint32_t sample;
     const std::uint8_t* values;  ///< one a patch
-    float weight;
+    float share;                 ///< of the sample
+    float weight;                ///< of its values
   };
   std::array<Row, 24> rows;
   std::size_t count = 0;
@@ -21,8 +23,8 @@ struct SampleRows {
       for (std::uint32_t s = mesh.first_share[node]; s < mesh.first_share[node + 1]; ++s) {
         if (count == rows.size()) break;  // a node of more samples than this needs no more of them
         const std::uint32_t sample = mesh.shares[s].sample;
-        rows[count++] = {data.direct.row(sample),
-                         place.weight[k] * mesh.shares[s].weight * data.direct.scales[sample]};
+        const float share = place.weight[k] * mesh.shares[s].weight;
+        rows[count++] = {sample, data.direct.row(sample), share, share * data.direct.scales[sample]};
       }
     }
   }
@@ -95,10 +97,16 @@ OpenPatches openPatches(const TransportData& data, const Surface& surface, const
   const SampleRows samples(data, outlook.own.light);
   PatchValues sums;
   sums.fill(0.0f);
-  for (std::size_t i = 0; i < samples.count; ++i)
-    addTimes(samples.rows[i].weight, samples.rows[i].values, sums.data());
+  Eigen::Array3f tints = Eigen::Array3f::Zero();
+  for (std::size_t i = 0; i < samples.count; ++i) {
+    const SampleRows::Row& row = samples.rows[i];
+    addTimes(row.weight, row.values, sums.data());
+    if (!data.direct_tints.empty())
+      tints += data.direct_tints[row.sample].value() * row.share * data.direct.sum(row.sample);
+  }
   const Eigen::Vector3f& normal = thin ? surface.shading_normal : bakedNormal(surface, material);
   OpenPatches open;
+  open.tint = PackedTint(tints);
   divideByWhole(normal.data(), sums.data(), open.share.data(), open.known.data());
   return open;
 }

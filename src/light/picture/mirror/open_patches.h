@@ -11,6 +11,7 @@ namespace sunlit::light {
 struct OpenPatches {
   PatchValues share;  ///< 0 … 1
   PatchValues known;  ///< 1, or 0 where the surface's samples don't tell, and `share` is 0
+  PackedTint tint;    ///< of what is open, by glass before it, in the mean
 };
 
 /// By what was gathered there, if anything; else by the surface's view of the sky as a leaf, or by the

@@ -152,6 +152,7 @@ RoughMirror roughMirror(const Surface& surface, const scene::Material& material,
   LobeSums sums;
   addUp(lobeOf(surface, material), spheres[static_cast<std::size_t>(in_patch - 1)], in_patch, &sums);
   RoughMirror mirror;
+  mirror.tint = open.tint;
   if (sums.all > 0.0f) fill(sums, open.share.data(), &mirror);
   return mirror;
 }

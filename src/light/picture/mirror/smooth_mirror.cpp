@@ -79,6 +79,7 @@ SmoothMirror smoothMirror(const Surface& surface, float roughness, bool sheet, c
   Parts parts = partsOf(surface, roughness);
   std::array<float, SmoothMirror::kParts> shares;
   SmoothMirror mirror;
+  mirror.tint = open.tint;
   findPlaces(parts, &mirror.place);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (sheet) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "light/bake/samples/light_place.h"
+#include "light/bake/samples/packed_tint.h"
 #include "light/patches/sky_openness.h"
 #include "sunlit/light/surfaces.h"
 
@@ -27,6 +28,7 @@ struct SmoothMirror {
   std::array<std::uint16_t, kParts> place = {};  ///< the direction, as an index into MirrorSky
   std::array<std::uint8_t, kParts> open = {};    ///< how much of the sky there is not hidden, 255 for all
   float hidden_below = 0.0f;                     ///< share of the lobe that is hidden and below the horizon
+  PackedTint tint;                               ///< of the sky, by glass before it
 };
 
 /// What a rough surface mirrors: how much of its lobe looks at each patch of the sky.
@@ -37,6 +39,7 @@ struct RoughMirror {
   float scale = 0.0f;
   /// Share of the lobe that other surfaces hide, 0 … 1: of those above the horizon and those below.
   float hidden_above = 0.0f, hidden_below = 0.0f;
+  PackedTint tint;  ///< of the sky, by glass before it
 };
 
 /// What a surface mirrors.

@@ -1,0 +1,33 @@
+/// What samples in rooms see.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+
+#include "light/bake/samples/transport_data.h"
+
+namespace sunlit::light {
+
+/// A sample that another one sees, and what its luminance × π counts there, in illuminance.
+struct SampleSeen {
+  std::uint32_t sample;
+  float weight;
+  PackedTint tint = {};  ///< by glass on the way
+
+  /// Illuminance where it sends so much: luminance × π.
+  Eigen::Array3f of(const Eigen::Array3f& sent) const { return weight * tint.times(sent); }
+};
+
+/// Calls visit(SampleSeen, whether it is seen above the horizon) for all that a room sees.
+template <typename Visit>
+void visitLinks(const BakedRooms& rooms, std::size_t room, const Visit& visit) {
+  for (std::uint32_t k = rooms.first[room]; k < rooms.first[room + 1]; ++k) {
+    const BakedRooms::Link link = rooms.links[k];
+    const PackedTint tint = rooms.link_tints.empty() ? PackedTint() : rooms.link_tints[k];
+    visit(SampleSeen{link.sample(), rooms.scales[room] * BakedRooms::weightOf(link), tint},
+          k < rooms.below[room]);
+  }
+}
+
+}  // namespace sunlit::light
