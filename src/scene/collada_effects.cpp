@@ -10,11 +10,6 @@
 namespace sunlit::scene {
 namespace {
 
-/// Up to the next tag.
-std::string contentBehind(std::size_t at, const std::string& text) {
-  return text.substr(at, std::min(text.find('<', at), text.size()) - at);
-}
-
 /// One <effect>.
 struct Effect {
   std::optional<OpacityPicture> picture = {};  ///< how that in <transparent> is meant

@@ -1,18 +1,60 @@
 #include "scene/collada_lamps.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <map>
-#include <string>
 #include <vector>
 
 #include "scene/assimp_nodes.h"
+#include "scene/collada_tags.h"
 #include "scene/color.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::scene {
 namespace {
 
-/// COLLADA gives colours without a unit, whole cones, and attenuation by distances in the unit of the file,
-/// of `unit_m`.
+/// Elements of extensions by which Assimp has a second angle of a cone.
+bool isOuterAngle(const std::string& name) {
+  return name == "outer_cone" || name == "falloff" || name == "decay_falloff" || name == "penumbra_angle";
+}
+
+/// A <spot>, as it stands in the text.
+struct SpotText {
+  std::size_t behind_tag = 0;  ///< 0: there is none
+  float exponent = 0.0f;
+  bool has_outer_angle = false;
+};
+
+/// Has Assimp take the exponent of the spot for a second angle, which nobody has below 0.
+void handOnExponent(const SpotText& spot, TextChanges* changes) {
+  if (spot.behind_tag > 0 && !spot.has_outer_angle)
+    (*changes)[spot.behind_tag] = {0, "<outer_cone>" + std::to_string(-spot.exponent) + "</outer_cone>"};
+}
+
+/// COLLADA has whole angles, a light that falls off as cosⁿ of the angle to the axis, and nothing beyond the
+/// cone, as OpenGL. Here the falloff goes on to 0 at its edge, with as much light in all: that of n = 0, and
+/// of a cone of a half space, is the same.
+void readCone(const aiLight& light, Lamp* lamp) {
+  const auto half = [](float angle) { return std::clamp(0.5f * angle, 0.0f, Lamp::kAllAround_rad); };
+  lamp->outer_rad = lamp->inner_rad = half(light.mAngleInnerCone);
+  if (light.mAngleOuterCone > 0.0f) {  // of an extension
+    lamp->outer_rad = half(light.mAngleOuterCone);
+    lamp->inner_rad = std::min(lamp->inner_rad, lamp->outer_rad);
+    return;
+  }
+  const double exponent = -Angle::radians(static_cast<double>(light.mAngleOuterCone)).deg();
+  if (exponent <= 0.0) return;
+  lamp->inner_rad = 0.0f;
+  lamp->outer_rad = std::min(lamp->outer_rad, 0.5f * kPiFloat);
+  // Of the flux ∫ cosⁿ d(cos) from the axis to the edge, by 1 − cos: narrow cones have cosines near 1.
+  const double sine = std::sin(0.5 * static_cast<double>(lamp->outer_rad));
+  const double width = std::min(2.0 * sine * sine, 1.0);
+  const double flux = -std::expm1((exponent + 1.0) * std::log1p(-width)) / (exponent + 1.0);
+  lamp->exponent = static_cast<float>(std::clamp(width / flux - 1.0, 0.0, 100.0));
+}
+
+/// COLLADA gives colours without a unit, and attenuation by distances in the unit of the file, of `unit_m`.
 Lamp lampOf(const aiLight& light, const Eigen::Affine3d& up_from_node, float unit_m) {
   Lamp lamp;
   lamp.name = lamp.group = light.mName.C_Str();
@@ -26,8 +68,7 @@ Lamp lampOf(const aiLight& light, const Eigen::Affine3d& up_from_node, float uni
   lamp.quadratic = light.mAttenuationQuadratic / (unit_m * unit_m);
   if (light.mType != aiLightSource_SPOT) return lamp;
   lamp.direction = (up_from_node.linear() * Eigen::Vector3d(to.x, to.y, to.z)).normalized().cast<float>();
-  lamp.outer_rad = std::clamp(0.5f * light.mAngleOuterCone, 0.0f, Lamp::kAllAround_rad);
-  lamp.inner_rad = std::clamp(0.5f * light.mAngleInnerCone, 0.0f, lamp.outer_rad);
+  readCone(light, &lamp);
   return lamp;
 }
 
@@ -78,6 +119,26 @@ class Places {
 };
 
 }  // namespace
+
+std::string withExponentsOfSpots(const std::string& text) {
+  constexpr float kMost = 1000.0f;  // narrower than any cone
+  TextChanges changes;
+  SpotText spot;
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {
+    if (name == "light" || name.compare(0, 8, "library_") == 0) {
+      handOnExponent(spot, &changes);
+      spot = {};
+    }
+    if (name == "spot") spot.behind_tag = at + tag.size();
+    if (name == "falloff_exponent") {
+      const float exponent = std::strtof(contentBehind(at + tag.size(), text).c_str(), nullptr);
+      spot.exponent = std::min(std::max(0.0f, exponent), kMost);  // 0 for NaN
+    }
+    spot.has_outer_angle = spot.has_outer_angle || isOuterAngle(name);
+  });
+  handOnExponent(spot, &changes);
+  return changed(text, changes);
+}
 
 void addColladaLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBuilder& builder) {
   Places places(scene);

@@ -5,13 +5,18 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <string>
 
 #include "scene/scene_builder.h"
 
 namespace sunlit::scene {
 
-/// Adds the lamps of `scene`, as Assimp reads it from COLLADA, to the builder; what cannot be lamps here is
-/// named.
+/// `text` from which addColladaLamps() gets the exponents of spots: Assimp 5.2 makes angles of them, by a
+/// rule of its own, and of 0 and 1 the same. Lines stay where they are.
+std::string withExponentsOfSpots(const std::string& text);
+
+/// Adds the lamps of `scene`, as Assimp reads it from COLLADA with exponents of spots, to the builder; what
+/// cannot be lamps here is named.
 void addColladaLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBuilder& builder);
 
 /// How many of its lights could be lamps: points and spots, of any format.

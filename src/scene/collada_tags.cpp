@@ -1,5 +1,7 @@
 #include "scene/collada_tags.h"
 
+#include <algorithm>
+
 namespace sunlit::scene {
 
 void forEachTag(
@@ -39,6 +41,10 @@ std::string changed(const std::string& text, const TextChanges& changes) {
     copied = at + change.first;
   }
   return whole.append(text, copied, std::string::npos);
+}
+
+std::string contentBehind(std::size_t at, const std::string& text) {
+  return text.substr(at, std::min(text.find('<', at), text.size()) - at);
 }
 
 std::string withoutHash(const std::string& address) {

@@ -24,6 +24,9 @@ using TextChanges = std::map<std::size_t, std::pair<std::size_t, std::string>>;
 /// `text` with them, but for those within what others take away.
 std::string changed(const std::string& text, const TextChanges& changes);
 
+/// Up to the next tag.
+std::string contentBehind(std::size_t at, const std::string& text);
+
 /// Of an address within the file.
 std::string withoutHash(const std::string& address);
 

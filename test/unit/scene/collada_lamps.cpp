@@ -1,10 +1,12 @@
 // Where lamps of COLLADA stand, and how they fade.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "scene/scene_builder.h"
+#include "sunlit/quantity/angle.h"
 #include "unit/scene/scene_files.h"
 
 namespace sunlit::scene {
@@ -51,6 +53,15 @@ class ColladaLamps : public SceneFiles {
                   "url='#s'/></scene></COLLADA>"),
         {});
   }
+  /// Of a spot with these elements, and these of extensions.
+  Lamp loadedSpot(const std::string& cone, const std::string& extra = "") const {
+    const Scene scene = loaded(movedTo(0, "<instance_light url='#S'/>", "Lamp"),
+                               "<library_lights><light id='S'><technique_common><spot><color>1 1 1</color>" +
+                                   cone + "</spot></technique_common>" + extra + "</light></library_lights>");
+    EXPECT_EQ(scene.warnings, std::vector<std::string>());
+    EXPECT_EQ(scene.lamps.size(), 1u);
+    return scene.lamps.at(0);
+  }
   static std::vector<float> placesOf(const Scene& scene) {
     std::vector<float> places;
     for (const Lamp& lamp : scene.lamps) places.push_back(lamp.position.x());
@@ -88,6 +99,51 @@ TEST_F(ColladaLamps, ThatShareTheirNameWithWhatIsNoLampAreNamed) {
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_EQ(scene.warnings[0],
             "1 lamps share their names with other nodes, they stand where the first of these does: Lamp");
+}
+
+TEST_F(ColladaLamps, WithoutAnExponentEndSharplyAtTheirCone) {
+  for (const char* exponent : {"", "0", "-1", "nan"}) {
+    const Lamp lamp = loadedSpot(
+        "<falloff_angle>60</falloff_angle>" +
+        (*exponent == 0 ? "" : "<falloff_exponent>" + std::string(exponent) + "</falloff_exponent>"));
+    EXPECT_NEAR(lamp.outer_rad, kPiFloat / 6.0f, 1e-6f) << exponent;
+    EXPECT_EQ(lamp.inner_rad, lamp.outer_rad) << exponent;
+  }
+  EXPECT_NEAR(loadedSpot("").outer_rad, 0.5f * kPiFloat, 1e-6f);  // the format's default is 180°
+  const Scene bare =
+      loaded(movedTo(0, "<instance_light url='#S'/>", "Lamp"),
+             "<library_lights><light id='S'><technique_common><spot/></technique_common></light>"
+             "</library_lights>");
+  ASSERT_EQ(bare.lamps.size(), 1u);
+  EXPECT_EQ(bare.lamps[0].inner_rad, bare.lamps[0].outer_rad);
+}
+
+TEST_F(ColladaLamps, FallOffByTheirExponent) {
+  const Lamp half_space =
+      loadedSpot("<falloff_angle>180</falloff_angle><falloff_exponent>3</falloff_exponent>");
+  EXPECT_EQ(half_space.inner_rad, 0.0f);
+  EXPECT_NEAR(half_space.outer_rad, 0.5f * kPiFloat, 1e-6f);
+  EXPECT_NEAR(half_space.exponent, 3.0f, 1e-5f);
+  for (const double exponent : {0.15, 1.0, 10.0, 50.0}) {
+    const Lamp lamp = loadedSpot("<falloff_angle>60</falloff_angle><falloff_exponent>" +
+                                 std::to_string(exponent) + "</falloff_exponent>");
+    EXPECT_EQ(lamp.inner_rad, 0.0f) << exponent;
+    EXPECT_NEAR(lamp.outer_rad, kPiFloat / 6.0f, 1e-6f) << exponent;
+    // Flux over 2 π, of ((c − edge) / (1 − edge))ᵉ and of cⁿ.
+    const double edge = std::cos(kPi / 6.0);
+    EXPECT_NEAR((1.0 - edge) / (static_cast<double>(lamp.exponent) + 1.0),
+                (1.0 - std::pow(edge, exponent + 1.0)) / (exponent + 1.0), 1e-7)
+        << exponent;
+  }
+  EXPECT_EQ(loadedSpot("<falloff_exponent>1e30</falloff_exponent>").exponent, 100.0f);
+}
+
+TEST_F(ColladaLamps, WithASecondAngleOfAnExtensionFadeUpToIt) {
+  const Lamp lamp =
+      loadedSpot("<falloff_angle>40</falloff_angle><falloff_exponent>2</falloff_exponent>",
+                 "<extra><technique profile='FCOLLADA'><outer_cone>60</outer_cone></technique></extra>");
+  EXPECT_NEAR(lamp.inner_rad, kPiFloat / 9.0f, 1e-6f);
+  EXPECT_NEAR(lamp.outer_rad, kPiFloat / 6.0f, 1e-6f);
 }
 
 TEST_F(ColladaLamps, FadeByDistancesInTheUnitOfTheFile) {
