@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "scene/assimp_nodes.h"
@@ -17,6 +18,44 @@ namespace {
 /// Elements of extensions by which Assimp has a second angle of a cone.
 bool isOuterAngle(const std::string& name) {
   return name == "outer_cone" || name == "falloff" || name == "decay_falloff" || name == "penumbra_angle";
+}
+
+/// What nodes and lights are called in the text.
+struct Names {
+  std::set<std::string> of_nodes;
+  std::map<std::string, std::string> of_lights;  ///< by id
+
+  /// The first that no node has, by whose name Assimp tells where a lamp stands; empty where there is none.
+  std::string ofLamp(const std::string& node_tag, const std::string& instance_tag) const {
+    const std::string light = withoutHash(valueInTag(instance_tag, "url"));
+    const auto called = of_lights.find(light);
+    for (const std::string& name :
+         {valueInTag(node_tag, "id"), called == of_lights.end() ? "" : called->second, light}) {
+      if (!name.empty() && of_nodes.count(name) == 0) return name;
+    }
+    return "";
+  }
+};
+
+Names namesIn(const std::string& text) {
+  Names names;
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
+    if (name == "node" || name == "visual_scene") names.of_nodes.insert(valueInTag(tag, "name"));
+    if (name == "light") names.of_lights[valueInTag(tag, "id")] = valueInTag(tag, "name");
+  });
+  return names;
+}
+
+/// One without a name, or with an empty one.
+void nameNode(const std::string& tag, std::size_t at, std::string name, TextChanges* changes) {
+  for (std::size_t quote = name.find('"'); quote != std::string::npos; quote = name.find('"'))
+    name.replace(quote, 1, "&quot;");
+  const std::size_t place = placeInTag(tag, "name").first, behind_node = std::string("<node").size();
+  name = '"' + name + '"';
+  if (place == std::string::npos)
+    (*changes)[at + behind_node] = {0, " name=" + name};
+  else
+    (*changes)[at + place - 1] = {2, name};
 }
 
 /// A <spot>, as it stands in the text.
@@ -119,6 +158,24 @@ class Places {
 };
 
 }  // namespace
+
+std::string withNamesOfLamps(const std::string& text) {
+  const Names names = namesIn(text);
+  TextChanges changes;
+  std::string node;
+  std::size_t node_at = 0;
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {
+    if (name == "node") {
+      node = tag;
+      node_at = at;
+    }
+    // Lights stand before the nodes below theirs.
+    if (name != "instance_light" || node.empty() || !valueInTag(node, "name").empty()) return;
+    const std::string called = names.ofLamp(node, tag);
+    if (!called.empty()) nameNode(node, node_at, called, &changes);
+  });
+  return changed(text, changes);
+}
 
 std::string withExponentsOfSpots(const std::string& text) {
   constexpr float kMost = 1000.0f;  // narrower than any cone

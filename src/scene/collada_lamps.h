@@ -11,6 +11,10 @@
 
 namespace sunlit::scene {
 
+/// `text` in which nodes with lamps that have no name have their id as one, else the name or the id of the
+/// light: groups of lamps go by it, and Assimp would number them. Lines stay where they are.
+std::string withNamesOfLamps(const std::string& text);
+
 /// `text` from which addColladaLamps() gets the exponents of spots: Assimp 5.2 makes angles of them, by a
 /// rule of its own, and of 0 and 1 the same. Lines stay where they are.
 std::string withExponentsOfSpots(const std::string& text);

@@ -254,7 +254,7 @@ ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, 
   for (const std::string& material : effects.set_apart)
     builder.warn("materials set parameters of their effects by <setparam>, which is not read",
                  material + " of " + file);
-  text = withExponentsOfSpots(withWeightsAtOnce(withBareMaterials(text)));
+  text = withExponentsOfSpots(withNamesOfLamps(withWeightsAtOnce(withBareMaterials(text))));
   if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return effects;
   const ColladaText readable = readableCollada(text);
   const aiScene* const scene =

@@ -101,6 +101,26 @@ TEST_F(ColladaLamps, ThatShareTheirNameWithWhatIsNoLampAreNamed) {
             "1 lamps share their names with other nodes, they stand where the first of these does: Lamp");
 }
 
+TEST_F(ColladaLamps, WhoseNodeHasNoNameGoByItsIdElseByTheLight) {
+  const auto node = [](const std::string& attributes, const std::string& light,
+                       const std::string& below = "") {
+    return "<node" + attributes + "><instance_light url='#" + light + "'/>" + below + "</node>";
+  };
+  const std::string lights =
+      "<library_lights><light id='one' name='A \"1\"'><technique_common><point><color>1 1 1</color></point>"
+      "</technique_common></light><light id='two' name='Arm'><technique_common><point><color>1 1 1</color>"
+      "</point></technique_common></light></library_lights>";
+  const Scene scene =
+      loaded(node(" id='bulb'", "one") + node(" id='lamp' name=''", "one") + node("", "one") + node("", "L") +
+                 "<node name='Arm'>" + node("", "two") + "</node>" + node(" id='x' name='Named'", "one"),
+             lights);
+  std::vector<std::string> groups;
+  for (const Lamp& lamp : scene.lamps) groups.push_back(lamp.group);
+  // Not that of the light where a node has it, whose place the lamp would get.
+  EXPECT_EQ(groups, (std::vector<std::string>{"bulb", "lamp", "A \"1\"", "L", "two", "Named"}));
+  EXPECT_EQ(scene.warnings, std::vector<std::string>());
+}
+
 TEST_F(ColladaLamps, WithoutAnExponentEndSharplyAtTheirCone) {
   for (const char* exponent : {"", "0", "-1", "nan"}) {
     const Lamp lamp = loadedSpot(
