@@ -39,7 +39,8 @@ constexpr const char* kNotRendered = "features of materials are not rendered";
 constexpr const char* kOtherLights =
     "lights that are no points and no spots were not read: the sky takes their place";
 constexpr const char* kDarkLights =
-    "lights were left out: their range, angle, direction and attenuation must be above 0 and finite";
+    "lights were left out: their colour and intensity must be at least 0, their range, angle, direction and "
+    "attenuation above 0, and all finite";
 constexpr const char* kSpeltOtherwise = "files are spelt otherwise on disk";
 
 /// Whether what a file says of a lamp makes one; else it is among kDarkLights.

@@ -13,7 +13,7 @@ namespace {
 LinearRgb intensityOf(const sdf::Light& light) {
   const ignition::math::Color color = light.Diffuse();
   LinearRgb linear = linearFromSrgb({color.R(), color.G(), color.B()});
-  linear.value *= static_cast<float>(std::max(strengthOf(light), 0.0));
+  linear.value *= static_cast<float>(strengthOf(light));
   return linear;
 }
 

@@ -119,6 +119,21 @@ TEST_F(LampFiles, ThatCannotShineAreNamed) {
   EXPECT_NE(scene.warnings[0].find("dead"), std::string::npos);
 }
 
+TEST_F(LampFiles, OfAnIntensityBelowZeroAreNamed) {
+  SKIP_WITHOUT_SDF();
+  const auto light = [](const std::string& name, const std::string& intensity) {
+    return "<light name='" + name + "' type='point'><diffuse>1 1 1 1</diffuse><intensity>" + intensity +
+           "</intensity><attenuation><range>5</range></attenuation></light>";
+  };
+  const Scene scene = worldWith(light("off", "0") + light("below", "-1"));
+  ASSERT_EQ(scene.lamps.size(), 1u);
+  EXPECT_EQ(scene.lamps[0].name, "off");
+  EXPECT_EQ(scene.warnings,
+            std::vector<std::string>{"1 lights were left out: their colour and intensity must be at least 0, "
+                                     "their range, angle, direction and attenuation above 0, and all finite: "
+                                     "below"});
+}
+
 TEST_F(LampFiles, ThatAreSwitchedOffAreNamed) {
   SKIP_WITHOUT_SDF();
   const std::string light =
