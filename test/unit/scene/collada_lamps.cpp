@@ -121,6 +121,18 @@ TEST_F(ColladaLamps, WhoseNodeHasNoNameGoByItsIdElseByTheLight) {
   EXPECT_EQ(scene.warnings, std::vector<std::string>());
 }
 
+TEST_F(ColladaLamps, HaveColoursOfADisplayAndAreBrighterThanItAsTheyStand) {
+  const auto lit = [&](const std::string& color) {
+    return loaded(movedTo(0, "<instance_light url='#P'/>", "Lamp"),
+                  "<library_lights><light id='P'><technique_common><point><color>" + color +
+                      "</color></point></technique_common></light></library_lights>")
+        .lamps.at(0)
+        .intensity.value;
+  };
+  EXPECT_LT((lit("1 0.5 0") - Eigen::Array3f(1.0f, 0.2140f, 0.0f)).abs().maxCoeff(), 2e-4f);
+  EXPECT_LT((lit("4 2 0") - Eigen::Array3f(4.0f, 4.0f * 0.2140f, 0.0f)).abs().maxCoeff(), 1e-3f);
+}
+
 TEST_F(ColladaLamps, WithoutAnExponentEndSharplyAtTheirCone) {
   for (const char* exponent : {"", "0", "-1", "nan"}) {
     const Lamp lamp = loadedSpot(
