@@ -25,11 +25,15 @@ class CameraStatus {
     status.add("black images", state.black);
     const std::size_t refused = streams_.refusedSkies(index_);
     status.add("messages of its sky refused", refused);
+    const std::string mixed = streams_.mixedSkyTopics(index_);
+    status.add("topics of several senders", mixed.empty() ? "none" : mixed);
     if (state.images > 0) {
       status.addf("EV100 of the newest", "%.3f", state.ev100);
       status.addf("age of the newest by ROS time, s", "%.3f", (ros::Time::now() - state.stamp).toSec());
     }
-    if (refused > 0) {
+    if (!mixed.empty()) {
+      status.summary(Level::WARN, "several nodes send " + mixed);
+    } else if (refused > 0) {
       status.summaryf(Level::WARN, "messages of its sky refused: %zu", refused);
     } else if (state.black > 0) {
       status.summaryf(Level::WARN, "%zu of %zu images are black all over", state.black, state.images);

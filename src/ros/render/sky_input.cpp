@@ -1,8 +1,10 @@
 #include "ros/render/sky_input.h"
 
 #include <ros/console.h>
+#include <ros/message_event.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "ros/conversions/time.h"
 #include "sunlit/quantity/range.h"
@@ -29,9 +31,23 @@ SkyInput::SkyInput(const ros::NodeHandle& node, const SkyInputOptions& options)
 
 template <typename Message>
 void SkyInput::subscribe(ros::NodeHandle node, const std::string& name, Topic<Message>* topic) {
-  const boost::function<void(const boost::shared_ptr<const Message>&)> taken =
-      [this, topic](const boost::shared_ptr<const Message>& message) { take(*message, topic); };
-  topic->subscriber = node.subscribe<Message>(name, kQueueSize, taken);
+  using Event = ros::MessageEvent<const Message>;
+  const boost::function<void(const Event&)> taken = [this, topic](const Event& event) {
+    watchSender(event.getPublisherName(), topic);
+    take(*event.getMessage(), topic);
+  };
+  topic->subscriber = node.subscribe<Message, const Event&>(name, kQueueSize, taken);
+}
+
+// A node that takes the place of another is no fault; one that goes on after that other has spoken is.
+template <typename Message>
+void SkyInput::watchSender(const std::string& sender, Topic<Message>* topic) {
+  const std::string other = std::exchange(topic->sender, sender);
+  if (topic->senders.insert(sender).second || sender == other) return;
+  topic->mixed = true;
+  if (std::exchange(warned_of_senders_, true)) return;
+  ROS_WARN("%s and %s send %s on %s in turn: pictures are under now the one's sky, now the other's",
+           other.c_str(), sender.c_str(), topic->what.c_str(), topic->subscriber.getTopic().c_str());
 }
 
 template <typename Message>
@@ -73,6 +89,18 @@ void SkyInput::put(const MoonPosition& message) {
 
 void SkyInput::put(const geometry_msgs::QuaternionStamped& message) {
   moments_.put(message.header.stamp, fromMessage(message, map_frame_));
+}
+
+std::string SkyInput::mixedTopics() const {
+  std::string names;
+  const auto add = [&names](const auto& topic) {
+    if (topic.mixed && topic.subscriber.getNumPublishers() > 1)
+      names += (names.empty() ? "" : ", ") + topic.subscriber.getTopic();
+  };
+  add(sun_);
+  add(moon_);
+  add(celestial_);
+  return names;
 }
 
 const SkyBodies* SkyInput::newest() const {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "ros/conversions/sky.h"
@@ -35,6 +36,9 @@ class SkyInput {
   std::string missing() const;
   /// Messages that could not be used.
   std::size_t refused() const { return refused_; }
+  /// The topics on which the messages of several nodes that are still there came in turn, in words; empty if
+  /// there are none.
+  std::string mixedTopics() const;
 
   /// As SkyMoments has it.
   std::optional<SkyBodies> at(const ros::Time& stamp) const { return moments_.at(stamp); }
@@ -51,12 +55,17 @@ class SkyInput {
   struct Topic {
     std::string what;
     ros::Subscriber subscriber = {};
-    bool heard = false;  ///< something that could be used
+    bool heard = false;       ///< something that could be used
+    std::string sender = {};  ///< of the latest message
+    std::set<std::string> senders = {};
+    bool mixed = false;  ///< a sender came again after another one
   };
   template <typename Message>
   void subscribe(ros::NodeHandle node, const std::string& name, Topic<Message>* topic);
   template <typename Message>
   void take(const Message& message, Topic<Message>* topic);
+  template <typename Message>
+  void watchSender(const std::string& sender, Topic<Message>* topic);
   void put(const SunPosition& message);
   void put(const MoonPosition& message);
   void put(const geometry_msgs::QuaternionStamped& message);
@@ -69,6 +78,7 @@ class SkyInput {
   std::optional<double> site_elevation_m_;  ///< of the latest sun that could be used
   std::size_t refused_ = 0;
   Throttle refusals_{5.0};  ///< that are told of, by topic
+  bool warned_of_senders_ = false;
   Topic<SunPosition> sun_{"a sun"};
   Topic<MoonPosition> moon_{"a moon"};
   Topic<geometry_msgs::QuaternionStamped> celestial_{"the turn of the stars"};

@@ -76,6 +76,8 @@ class Streams {
   const StreamState& state(std::size_t index) const { return streams_[index]->state; }
   /// Messages of its sky that could not be used.
   std::size_t refusedSkies(std::size_t index) const { return streams_[index]->sky.refused(); }
+  /// As SkyInput has it.
+  std::string mixedSkyTopics(std::size_t index) const { return streams_[index]->sky.mixedTopics(); }
 
   const PoseOutput& poseOutput() const { return pose_output_; }
   /// Of the place of the first condition, m; only when every sky is there.

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """What /diagnostics is told of a render node, while it waits, after pictures, and where it cannot go on."""
+import itertools
 import os
 import tempfile
 import threading
@@ -34,15 +35,18 @@ class Diagnostics:
                           for status in array.status if status.name.startswith(self.node + ": ")]
             self.changed.notify_all()
 
-    def wait(self, part, level, count=1, **expected):
-        """The first `count` of this part and level whose values are as expected."""
-        def found():
+    def of(self, part, level, **expected):
+        """All of this part and level whose values are as expected."""
+        with self.changed:
             return [t for t in self.told if t[1].name == self.node + ": " + part and t[1].level == level
                     and all(t[2].get(key.replace("_", " ")) == value for key, value in expected.items())]
+
+    def wait(self, part, level, count=1, **expected):
+        """The first `count` of them."""
         with self.changed:
-            if not self.changed.wait_for(lambda: len(found()) >= count, TIMEOUT_S):
+            if not self.changed.wait_for(lambda: len(self.of(part, level, **expected)) >= count, TIMEOUT_S):
                 raise AssertionError("%s, %s: never told, but %s" % (part, expected, self.told[-2:]))
-            return found()[:count]
+            return self.of(part, level, **expected)[:count]
 
     def close(self):
         self.subscriber.unregister()
@@ -54,9 +58,9 @@ def clock_owner(**changes):
                                   subscribers={"images": 1}), **changes))
 
 
-def sun_by_the_clock():
+def sun_by_the_clock(name="suns"):
     """A sun for each time on /clock."""
-    return Process("suns", {"conditions": ["a"], "date_time": {"rate": 0.0}}, "sun_position_node")
+    return Process(name, {"conditions": ["a"], "date_time": {"rate": 0.0}}, "sun_position_node")
 
 
 def wait_until(reached):
@@ -143,6 +147,27 @@ class RenderDiagnostics(RefusalTest):
         for publisher in sky.publishers:
             publisher.unregister()
         reader.close()
+        diagnostics.close()
+
+    def test_two_nodes_that_send_one_sky_are_a_warning_while_both_are_there(self):
+        clock, diagnostics = rospy.Publisher("/clock", Clock, queue_size=1, latch=True), Diagnostics("mixed")
+        times = itertools.count(1)
+
+        def is_told():
+            clock.publish(Clock(rospy.Time(next(times))))  # and both send a sun
+            return diagnostics.of("a/camera", DiagnosticStatus.WARN, topics_of_several_senders="/a/sun")
+
+        with sun_by_the_clock(), RenderNode("mixed", parameters(conditions=["a"], start_stamp=1e6, diagnostic_period=0.05)) as node:
+            with sun_by_the_clock("left_over"):
+                wait_until(is_told)
+                self.assertEqual(is_told()[0][1].message, "several nodes send /a/sun")
+                said = node.line_with("in turn")
+                for part in ("/suns", "/left_over", "a sun on /a/sun"):
+                    self.assertIn(part, said)
+            diagnostics.close()
+            diagnostics = Diagnostics("mixed")
+            diagnostics.wait("a/camera", DiagnosticStatus.OK, topics_of_several_senders="none")
+        clock.unregister()
         diagnostics.close()
 
     def test_a_pose_whose_time_does_not_come_is_told_of(self):
