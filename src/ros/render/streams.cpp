@@ -4,6 +4,7 @@
 #include <ros/names.h>
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <stdexcept>
 
@@ -27,6 +28,19 @@ std::string skyPrefix(const Condition& condition, const StreamOptions& options) 
 /// As the parameter calls it.
 std::string modeOf(image::ExposureOptions exposure) {
   return fieldOf(fieldsOf(exposure), "mode").text();
+}
+
+/// Of a picture between two skies that are `seconds` of ROS time apart.
+void warnIfFarApart(double seconds, double rate) {
+  constexpr double kMost_s = 1200.0;  // of the sun's clock: 5 deg, and the arc between is off by 0.02 deg
+  const double passes_s = seconds * std::abs(rate);
+  if (passes_s <= kMost_s) return;
+  ROS_WARN_ONCE(
+      "The sun comes every %.3f s, in which its clock goes on by %.0f s, and a picture between two suns that "
+      "are more than %.0f s apart has one that never stood there: raise publish_rate of sun_position, or "
+      "lower "
+      "its rate",
+      seconds, passes_s, kMost_s);
 }
 
 studio::SkyBodies inSky(const SkyBodies& bodies) {
@@ -97,6 +111,7 @@ void Streams::expose(const Shot& shot) {
   for (const auto& stream : streams_) {
     stream->sky.forgetBefore(shot.stamp);
     const SkyBodies bodies = stream->sky.at(shot.stamp).value();
+    warnIfFarApart(stream->sky.spacing(shot.stamp), bodies.time.rate);
     const light::Illumination& light = lightOf(*stream, bodies, shot.stamp);
     const image::PictureName name{shot.chance, stream->name, shot.drive};
     studio::Developed developed = studio_.photograph(light, name, stream->inTurn(shot.pose_index));

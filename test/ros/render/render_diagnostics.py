@@ -2,6 +2,7 @@
 """What /diagnostics is told of a render node, while it waits, after pictures, and where it cannot go on."""
 import itertools
 import os
+import re
 import tempfile
 import threading
 import time
@@ -196,6 +197,19 @@ class RenderDiagnostics(RefusalTest):
             publisher.unregister()
         reader.close()
         diagnostics.close()
+
+    def test_a_picture_between_two_suns_that_are_far_apart_is_warned_of(self):
+        clock, sky = rospy.Publisher("/clock", Clock, queue_size=1, latch=True), Sky("/a/")
+        clock.publish(Clock(rospy.Time(1000)))
+        with RenderNode("fast", parameters(conditions=["a"], path={"count": 1})) as node:
+            wait_until(lambda: sky.publishers[0].get_num_connections() == 1)
+            for step in range(10):
+                sky.send_sun(999.55 + 0.1 * step, rate=86400.0)
+                time.sleep(0.1)  # its queue holds one
+            found = re.search(r"every (\S+) s, in which its clock goes on by (\d+) s", node.line_with("never stood there"))
+            self.assertEqual(int(found.group(2)), round(86400.0 * float(found.group(1))))
+        for publisher in sky.publishers + [clock]:
+            publisher.unregister()
 
     def test_a_camera_on_a_path_that_began_now_goes_on_when_time_begins_anew(self):
         clock, sky = rospy.Publisher("/clock", Clock, queue_size=1, latch=True), Sky("/a/")
