@@ -163,6 +163,7 @@ visualization_msgs::Marker toMarker(const MoonPosition& moon, const std::string&
 sky::SunInSky fromMessage(const SunPosition& message, const std::string& map_frame) {
   requireFrame(message.header, map_frame);
   require("distance_au", message.distance_au, {0.97, 1.03}, "au");
+  require("rate", message.rate, {});
   const Direction apparent = directionOf(message.direction);
   return {apparent, message.distance_au, geometricOf(apparent, message.elevation_geometric)};
 }

@@ -315,6 +315,11 @@ TEST(SkyMessages, ThatCannotBeAreRefusedInWords) {
   sun.elevation_geometric = 0.0;  // as it is where nobody set it
   EXPECT_EQ(refusal(sun),
             "elevation_geometric is 0 rad, but must be within 5 deg of that of direction, 1.570796327 rad");
+  for (const double rate : {nan, std::numeric_limits<double>::infinity()}) {
+    sun = sunMessage();
+    sun.rate = rate;
+    EXPECT_EQ(refusal(sun), "rate is " + textOf(rate) + ", but must be a finite number");
+  }
   geometry_msgs::QuaternionStamped celestial = celestialMessage();
   celestial.quaternion.w = nan;
   EXPECT_EQ(refusal(celestial), "quaternion is of length nan, but must be of length 1");
