@@ -56,10 +56,16 @@ ros::Time PathRun::startOfNow() const {
   // that moves, by a clock ahead of ours or while time stands still, may have nothing for now any more.
   ros::Time first = ros::Time::now();
   if (streams_.missedSky(first)) first = streams_.newestSky();
+  const int index = path_.first() + position_;
   const auto now = static_cast<std::int64_t>(first.toNSec());
-  const std::int64_t ahead = path::nanosecondsTo(path_.first() + position_, options_.frame_rate);
+  const std::int64_t ahead = path::nanosecondsTo(index, options_.frame_rate);
   ros::Time start;
   start.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(now - ahead, 1)));
+  if (now <= ahead)
+    ROS_WARN(
+        "start_stamp is now, %s, but no stamp is before 0: by frame_rate pose %d comes at %s at the earliest",
+        textOfStamp(first).c_str(), index,
+        textOfStamp(stampOfPose(start, index, options_.frame_rate)).c_str());
   return start;
 }
 

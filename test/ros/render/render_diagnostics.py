@@ -245,6 +245,20 @@ class RenderDiagnostics(RefusalTest):
             publisher.unregister()
         reader.close()
 
+    def test_a_path_whose_first_pose_cannot_be_now_says_when_it_comes(self):
+        clock, sky = rospy.Publisher("/clock", Clock, queue_size=1, latch=True), Sky("/a/")
+        clock.publish(Clock(rospy.Time.from_sec(0.5)))
+        sky.send_sun(0.5)
+        tree = parameters(conditions=["a"], start_stamp="now", path={"first": 16, "count": 1}, subscribers={"images": 1})
+        with RenderNode("young", tree) as node:
+            reader = Reader(["a"], node="/young")
+            self.assertIn("is now, 0.500000000, but", node.line_with("pose 16 comes at 2.000000001 at the earliest"))
+            clock.publish(Clock(rospy.Time(3)))
+            self.assertEqual(reader.wait("/a/camera/image_raw", 1)[0].header.stamp, rospy.Time(2, 1))
+        for publisher in sky.publishers + [clock]:
+            publisher.unregister()
+        reader.close()
+
     def test_a_camera_that_follows_goes_on_when_time_begins_anew(self):
         clock = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)
         sky, sender = Sky("/a/"), Transforms()
