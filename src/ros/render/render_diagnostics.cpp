@@ -33,13 +33,14 @@ class CameraStatus {
     }
     if (!mixed.empty()) {
       status.summary(Level::WARN, "several nodes send " + mixed);
-    } else if (refused > 0) {
+    } else if (refused > told_refused_ || streams_.isRefusingSkies(index_)) {
       status.summaryf(Level::WARN, "messages of its sky refused: %zu", refused);
-    } else if (state.black > 0) {
+    } else if (state.is_black) {
       status.summaryf(Level::WARN, "%zu of %zu images are black all over", state.black, state.images);
     } else {
       status.summaryf(Level::OK, "%zu images", state.images);
     }
+    told_refused_ = refused;
   }
 
  private:
@@ -47,6 +48,7 @@ class CameraStatus {
   std::size_t index_;
   ros::SteadyTime told_ = ros::SteadyTime::now();
   std::size_t told_images_ = 0;
+  std::size_t told_refused_ = 0;
 };
 
 }  // namespace
@@ -75,7 +77,8 @@ void RenderDiagnostics::tellRun(Status& status) const {
   } else if (waits) {
     status.summary(Level::WARN, "waits for " + activity.detail);
   } else {
-    status.summary(resting.empty() ? Level::OK : Level::WARN, resting.empty() ? activity.doing : resting);
+    const bool lacks_links = parts_ && parts_->robot && parts_->robot->lacksLinks();
+    status.summary(lacks_links ? Level::WARN : Level::OK, lacks_links ? resting : activity.doing);
   }
   status.add("activity", activity.doing);
   status.add("waits for", waits ? activity.detail : "nothing");

@@ -25,8 +25,8 @@ struct RenderParts {
 
 /// Two kinds of status: the run (what it does or waits for, how far it is, what draws, the cache), and each
 /// condition's camera (images a second, exposure, age of the newest). A warning while the run waits for long,
-/// or several nodes send one sky, and once something was refused or had to be guessed; an error where it
-/// cannot go on.
+/// several nodes send one sky, or something is refused or has to be guessed, of which the counts stay; an
+/// error where it cannot go on.
 class RenderDiagnostics {
  public:
   /// `activity` outlives this.

@@ -176,11 +176,13 @@ render::BodyPlaces RobotPlaces::onPath(const Eigen::Isometry3d& map_from_camera,
 }
 
 void RobotPlaces::count(const Joints& joints) {
+  bool stands = false;
   for (std::size_t i = 0; i < links_.size(); ++i)
-    if (joints[i] && links_[i].matters && i != base_) countStanding(&links_[i], joints[i]->stamp);
+    if (joints[i] && links_[i].matters && i != base_) stands |= countStanding(&links_[i], joints[i]->stamp);
   auto known = transformsOf(joints);
   known[base_] = Eigen::Isometry3d::Identity();
   countMissing(known);
+  lacks_links_ |= stands;
 }
 
 bool RobotPlaces::knowsJoints(const tf2_ros::Buffer& tf) {
@@ -225,25 +227,32 @@ bool RobotPlaces::worthWaiting(const std::vector<std::optional<Eigen::Isometry3d
   return false;
 }
 
-void RobotPlaces::countStanding(Link* link, const ros::Time& stamp) const {
-  if (stamp.isZero()) return;  // static
+/// Whether nobody renews it.
+bool RobotPlaces::countStanding(Link* link, const ros::Time& stamp) const {
+  if (stamp.isZero()) return false;  // static
   const Clock::time_point now = Clock::now();
   if (stamp != link->stamp) {
     link->stamp = stamp;
     link->renewed = now;
-  } else if (now - link->renewed > patience_ && link->standing++ == 0) {
+    return false;
+  }
+  if (now - link->renewed <= patience_) return false;
+  if (link->standing++ == 0) {
     ROS_WARN(
         "The transform of the robot's link %s on TF is that of %.3f s and has not been renewed for %.1f s: "
         "the link stays where it was",
         link->frame.c_str(), stamp.toSec(), patience_.count());
   }
+  return true;
 }
 
 void RobotPlaces::countMissing(const std::vector<std::optional<Eigen::Isometry3d>>& known) {
   ++poses_;
+  lacks_links_ = false;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (known[i]) links_[i].given_up = false;
     if (!links_[i].matters || known[i]) continue;
+    lacks_links_ = true;
     if (links_[i].missed++ == 0) {
       ROS_WARN("No transform of the robot's link %s on TF: it is in rest position", links_[i].frame.c_str());
     }

@@ -53,6 +53,8 @@ class RobotPlaces {
   std::string waitsFor() const { return waits_for_; }
   /// Which links had no transform in how many poses, or an old one, in one line; empty if there is none.
   std::string missingLinks() const;
+  /// Whether the latest pose had one of them.
+  bool lacksLinks() const { return lacks_links_; }
   /// How long a link's transform is waited for.
   std::chrono::duration<double> patience() const { return patience_; }
   bool jointsByTf() const { return joints_by_tf_; }
@@ -76,7 +78,7 @@ class RobotPlaces {
                            const std::vector<std::optional<Eigen::Isometry3d>>& map_from_known) const;
   bool worthWaiting(const std::vector<std::optional<Eigen::Isometry3d>>& known);
   Joints lookUp(const tf2_ros::Buffer& tf, const std::string& frame, const ros::Time& stamp) const;
-  void countStanding(Link* link, const ros::Time& stamp) const;
+  bool countStanding(Link* link, const ros::Time& stamp) const;
   void countMissing(const std::vector<std::optional<Eigen::Isometry3d>>& known);
 
   std::vector<Link> links_;
@@ -89,6 +91,7 @@ class RobotPlaces {
   std::chrono::duration<double> patience_;
   std::optional<Clock::time_point> waiting_since_;
   int poses_ = 0;  ///< by TF
+  bool lacks_links_ = false;
   std::string waits_for_;
 };
 

@@ -55,7 +55,9 @@ void SkyInput::take(const Message& message, Topic<Message>* topic) {
   try {
     put(message);
     topic->heard = true;
+    topic->refused = false;
   } catch (const std::invalid_argument& error) {
+    topic->refused = true;
     ++refused_;
     if (refusals_.isTime(topic->what))
       ROS_ERROR("Refused %s on %s: %s", topic->what.c_str(), topic->subscriber.getTopic().c_str(),

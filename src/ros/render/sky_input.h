@@ -36,6 +36,8 @@ class SkyInput {
   std::string missing() const;
   /// Messages that could not be used.
   std::size_t refused() const { return refused_; }
+  /// Whether the latest of a topic was one of them.
+  bool isRefusing() const { return sun_.refused || moon_.refused || celestial_.refused; }
   /// The topics on which the messages of several nodes that are still there came in turn, in words; empty if
   /// there are none.
   std::string mixedTopics() const;
@@ -56,6 +58,7 @@ class SkyInput {
     std::string what;
     ros::Subscriber subscriber = {};
     bool heard = false;       ///< something that could be used
+    bool refused = false;     ///< the latest could not
     std::string sender = {};  ///< of the latest message
     std::set<std::string> senders = {};
     bool mixed = false;  ///< a sender came again after another one

@@ -73,8 +73,9 @@ studio::Setting Streams::Stream::inTurn(std::int64_t index) {
 }
 
 void Streams::Stream::count(const Photograph& photograph) {
-  state = {name, state.images + 1, photograph.stamp, photograph.ev100, state.black};
-  if (!image::isBlack(photograph.picture) || state.black++ > 0) return;
+  const bool is_black = image::isBlack(photograph.picture);
+  state = {name, state.images + 1, photograph.stamp, photograph.ev100, state.black, is_black};
+  if (!is_black || state.black++ > 0) return;
   ROS_WARN("The picture%s at pose %d is black all over: %s More like it are counted",
            (name.empty() ? "" : " of " + name).c_str(), photograph.pose_index, image::kWhyBlack);
 }

@@ -46,6 +46,7 @@ struct StreamState {
   ros::Time stamp = {};    ///< of the newest
   double ev100 = 0.0;      ///< of the newest
   std::size_t black = 0;   ///< images sent that are black all over
+  bool is_black = false;   ///< the newest
 };
 
 class Streams {
@@ -76,7 +77,8 @@ class Streams {
   const StreamState& state(std::size_t index) const { return streams_[index]->state; }
   /// Messages of its sky that could not be used.
   std::size_t refusedSkies(std::size_t index) const { return streams_[index]->sky.refused(); }
-  /// As SkyInput has it.
+  /// As SkyInput has them.
+  bool isRefusingSkies(std::size_t index) const { return streams_[index]->sky.isRefusing(); }
   std::string mixedSkyTopics(std::size_t index) const { return streams_[index]->sky.mixedTopics(); }
 
   const PoseOutput& poseOutput() const { return pose_output_; }

@@ -297,7 +297,7 @@ class RenderDiagnostics(RefusalTest):
         sender.close()
         reader.close()
 
-    def test_what_was_refused_or_guessed_is_a_warning(self):
+    def test_what_is_refused_or_guessed_is_a_warning_until_all_is_well_again(self):
         diagnostics = Diagnostics("guesses")
         reader = Reader(["a"], node="/guesses")
         publisher = rospy.Publisher("/a/sun", SunPosition, queue_size=1, latch=True)
@@ -309,6 +309,7 @@ class RenderDiagnostics(RefusalTest):
             status = diagnostics.wait("a/camera", DiagnosticStatus.WARN, messages_of_its_sky_refused="1")[0][1]
             self.assertEqual(status.message, "messages of its sky refused: 1")
             self.enter(sun_by_the_clock())
+            diagnostics.wait("a/camera", DiagnosticStatus.OK, images="2", messages_of_its_sky_refused="1")
             status = diagnostics.wait("run", DiagnosticStatus.WARN, activity="done")[0][1]
             self.assertIn("in rest position for want of a transform on TF", status.message)
             self.assertIn("in 2 of 2 poses", status.message)

@@ -82,6 +82,27 @@ TEST(RobotPlaces, WaitForALinkThatOnlyLights) {
   EXPECT_NE(places.waitsFor().find("headlight"), std::string::npos) << places.waitsFor();
 }
 
+TEST(RobotPlaces, LackALinkInThosePosesInWhichItsTransformDoesNotComeOrIsOld) {
+  scene::Robot robot = robotWithCamera("headlight", "0 0 0");
+  robot.links[1].lamps.emplace_back();
+  RobotOptions options;
+  options.joints_by_tf = true;
+  options.tf_patience_s = 0.0;
+  RobotPlaces places(robot, options, {}, 1.0);
+  const FoundTransform first{Eigen::Isometry3d::Identity(), ros::Time(1)};
+  const auto lacks = [&](const std::optional<FoundTransform>& headlight) {
+    places.count({std::nullopt, headlight});
+    return places.lacksLinks();
+  };
+  EXPECT_FALSE(places.lacksLinks());
+  EXPECT_TRUE(lacks(std::nullopt));
+  EXPECT_FALSE(lacks(first));
+  EXPECT_TRUE(lacks(first));  // as a moment ago
+  EXPECT_FALSE(lacks(FoundTransform{first.parent_from_child, ros::Time(2)}));
+  EXPECT_NE(places.missingLinks().find("headlight in 1 of 4 poses; "), std::string::npos)
+      << places.missingLinks();
+}
+
 TEST(StampOfPose, IsStartPlusIndexOverRateToTheNanosecond) {
   const ros::Time start(1000, 250000000);
   EXPECT_EQ(stampOfPose(start, 0, 10.0), start);
