@@ -38,8 +38,7 @@ void warnIfFarApart(double seconds, double rate) {
   ROS_WARN_ONCE(
       "The sun comes every %.3f s, in which its clock goes on by %.0f s, and a picture between two suns that "
       "are more than %.0f s apart has one that never stood there: raise publish_rate of sun_position, or "
-      "lower "
-      "its rate",
+      "lower its rate",
       seconds, passes_s, kMost_s);
 }
 
