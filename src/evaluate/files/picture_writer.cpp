@@ -38,6 +38,10 @@ std::string PictureWriter::pathOf(const std::string& stream, std::int64_t pose) 
   return folder_ + "/" + stream + "/" + name;
 }
 
+std::string PictureWriter::pathOf(const std::string& stream, const Aside& aside) const {
+  return aside.pose ? pathOf(stream, *aside.pose) : pathOf(stream, aside.number) + ".aside";
+}
+
 bool PictureWriter::claim(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns,
                           bool is_evaluated) {
   const std::lock_guard<std::mutex> lock(stamps_mutex_);
@@ -55,11 +59,14 @@ bool PictureWriter::isClaimedBy(const std::string& stream, std::int64_t pose, st
 
 void PictureWriter::write(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns,
                           const cv::Mat& rgb) {
-  const std::string path = pathOf(stream, pose);
-  const std::string png = pngOf(path, rgb);
+  const std::string png = pngOf(pathOf(stream, pose), rgb);
   // One file at a time, so that the last claim is written last.
   const std::lock_guard<std::mutex> one_at_a_time(files_mutex_);
-  if (!isClaimedBy(stream, pose, stamp_ns)) return;
+  const auto aside = aside_.find({stamp_ns, stream});
+  const bool is_aside = aside != aside_.end() && !aside->second.pose;
+  const std::int64_t known_pose = aside == aside_.end() ? pose : aside->second.pose.value_or(pose);
+  if (!is_aside && !isClaimedBy(stream, known_pose, stamp_ns)) return;
+  const std::string path = is_aside ? pathOf(stream, aside->second) : pathOf(stream, known_pose);
   makeParentOf(path);
   image::writeFileAtomically(path, png);
 }
@@ -87,8 +94,45 @@ std::vector<std::int64_t> PictureWriter::posesOf(const std::string& stream) cons
   return poses;
 }
 
-void PictureWriter::finish(const std::function<std::int64_t(std::int64_t, std::int64_t)>& settled_pose) {
+void PictureWriter::setAside() {
+  const std::lock_guard<std::mutex> one_at_a_time(files_mutex_);
   const std::lock_guard<std::mutex> lock(stamps_mutex_);
+  for (const auto& [place, stamp] : stamps_) {
+    const auto& [stream, number] = place;
+    const Aside aside{number, std::nullopt};
+    aside_[{stamp, stream}] = aside;
+    const std::string path = pathOf(stream, number);
+    if (std::filesystem::exists(path)) std::filesystem::rename(path, pathOf(stream, aside));
+  }
+  stamps_.clear();
+}
+
+void PictureWriter::give(std::int64_t stamp_ns, std::int64_t pose) {
+  const std::lock_guard<std::mutex> one_at_a_time(files_mutex_);
+  const std::lock_guard<std::mutex> lock(stamps_mutex_);
+  for (auto item = aside_.lower_bound({stamp_ns, ""}); item != aside_.end(); ++item) {
+    auto& [place, aside] = *item;
+    const auto& [stamp, stream] = place;
+    if (stamp != stamp_ns) return;
+    if (aside.pose) continue;
+    const std::string path = pathOf(stream, aside);
+    aside.pose = pose;
+    std::int64_t& claim = stamps_.emplace(std::make_pair(stream, pose), stamp).first->second;
+    claim = std::min(claim, stamp);
+    if (!std::filesystem::exists(path)) continue;
+    if (claim == stamp) {
+      std::filesystem::rename(path, pathOf(stream, pose));
+    } else {
+      std::filesystem::remove(path);
+    }
+  }
+}
+
+void PictureWriter::finish(const std::function<std::int64_t(std::int64_t, std::int64_t)>& settled_pose) {
+  const std::lock_guard<std::mutex> one_at_a_time(files_mutex_);
+  const std::lock_guard<std::mutex> lock(stamps_mutex_);
+  for (const auto& [place, aside] : aside_)
+    if (!aside.pose) std::filesystem::remove(pathOf(place.second, aside));
   // By way of other names, since numbers may change places.
   std::vector<std::pair<std::string, std::string>> moves;
   for (const auto& item : stamps_) {

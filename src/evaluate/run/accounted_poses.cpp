@@ -16,7 +16,25 @@ void AccountedPoses::takeUp(std::int64_t pose) {
 // One that a sender sends beyond a hole it has passed, and does not wait for.
 void AccountedPoses::add(std::int64_t pose) {
   insert(pose);
+  numbers_.erase(pose);
   beyond_.erase(pose);
+  pass();
+}
+
+void AccountedPoses::addNumber(std::int64_t number) {
+  const bool is_pose = has(number) && numbers_.count(number) == 0;
+  add(number);
+  if (!is_pose) numbers_.insert(number);
+}
+
+void AccountedPoses::forgetNumbers() {
+  passed_before_ = passed();
+  for (const std::int64_t number : numbers_) {
+    all_.erase(number);
+    if (!expected_.holds(number)) --unexpected_;
+  }
+  numbers_.clear();
+  leading_ = 0;
   pass();
 }
 

@@ -1,6 +1,7 @@
 /// Which poses are accounted for.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -19,6 +20,10 @@ class AccountedPoses {
   void takeUp(std::int64_t pose);
   /// This run is done with it.
   void add(std::int64_t pose);
+  /// The same of a number that stands for a pose until forgetNumbers().
+  void addNumber(std::int64_t number);
+  /// Numbers turned out to be no poses.
+  void forgetNumbers();
 
   bool has(std::int64_t pose) const { return all_.count(pose) != 0; }
   std::size_t size() const { return all_.size(); }
@@ -29,7 +34,7 @@ class AccountedPoses {
   /// Whether all that are expected are; never where their number is unknown.
   bool isWhole() const { return expected_.size() > 0 && expected() >= expected_.size(); }
   /// How many a sender may count as done: never fewer than before, and all of them once it is whole.
-  std::size_t passed() const { return all_.size() - beyond_.size(); }
+  std::size_t passed() const { return std::max(all_.size() - beyond_.size(), passed_before_); }
 
  private:
   void insert(std::int64_t pose);
@@ -37,7 +42,9 @@ class AccountedPoses {
 
   PoseRange expected_;
   std::set<std::int64_t> all_;
-  std::set<std::int64_t> beyond_;  // of them: taken up, and beyond a hole
+  std::set<std::int64_t> beyond_;   // of them: taken up, and beyond a hole
+  std::set<std::int64_t> numbers_;  // of them: by addNumber() alone
+  std::size_t passed_before_ = 0;   // forgetNumbers()
   std::size_t unexpected_ = 0;
   std::size_t leading_ = 0;  // of those expected, without a hole
 };

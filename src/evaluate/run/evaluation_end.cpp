@@ -27,13 +27,14 @@ Outcome Evaluation::State::finish(const StopToken& broken_off) {
   }
   waitForWork(broken_off);
   queue_.rethrow();
+  leaveOutUnplaced();
   Outcome outcome;
   outcome.is_broken_off = is_broken_off_;
   outcome.counts = counts();
   outcome.absent_poses = nameAbsentPoses();
   settleAndWrite(outcome);
   forgetEarlierResults();
-  if (outcome.isWhole()) forgetLostFeatures();
+  if (outcome.isWhole() && isVerifying() && isWholePath()) std::filesystem::remove(file(kLostFile));
   finished_ = outcome;
   return outcome;
 }
@@ -112,7 +113,9 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
   poses_.rank();
   settleRecords();
   for (const PairRecord& record : records_) evaluated[{record.pose, record.pair}] = record.stamp_ns;
-  const auto settled = [this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); };
+  const auto settled = [this](std::int64_t stamp, std::int64_t pose) {
+    return poses_.known(stamp).value_or(pose);
+  };
   if (pictures_) pictures_->finish(settled);
   if (drawn_) drawn_->finish(settled);
   keepFinalDrawn();
@@ -128,8 +131,10 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
     return isLeftOutCapture(stream, capture);
   };
   const LeftOutPlaces left_out = record_files_->finish(options_.streams, is_left_out, is_of_two);
-  for (const auto& [count, what] : {std::pair{left_out.without_image, "stamps without an image"},
-                                    {left_out.of_two, "stamps of two places"}}) {
+  for (const auto& [count, what] :
+       {std::pair{left_out.without_image, "stamps without an image"},
+        {left_out.unplaced, "stamps of which no capture says which pose they are"},
+        {left_out.of_two, "stamps of two places"}}) {
     if (count > 0 && callbacks_.note)
       callbacks_.note(file("path.csv") + ": " + std::to_string(count) + " poses of " + what + " left out");
   }

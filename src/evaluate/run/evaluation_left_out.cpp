@@ -1,5 +1,5 @@
-// What is not evaluated although all of it came: pictures of two places, or under another sun than that of
-// their condition.
+// What is not evaluated although all of it came: pictures of two places, under another sun than that of their
+// condition, or of which no capture says at which pose they were taken.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -25,24 +25,20 @@ bool Evaluation::State::isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::
   return true;
 }
 
-// Counts it. Its captures are named by nameOtherSuns().
-bool Evaluation::State::isOfOtherSun(std::int64_t stamp_ns, std::size_t pair) {
+// Counts it, too. Captures of other suns are named by nameOtherSuns().
+bool Evaluation::State::isLeftOut(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair) {
+  if (isOfTwoPlaces(stamp_ns, pose, pair)) return true;
   const PairSpec& streams = options_.pairs[pair];
   if (!suns_.isOther(streams.a, stamp_ns) && !suns_.isOther(streams.b, stamp_ns)) return false;
   ++counts_.pairs[pair].other_sun;
   return true;
 }
 
-bool Evaluation::State::isLeftOut(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair) {
-  return isOfTwoPlaces(stamp_ns, pose, pair) || isOfOtherSun(stamp_ns, pair);
-}
-
 // What was evaluated before that was known. What earlier runs evaluated is not of this run's images.
 void Evaluation::State::separate(std::int64_t stamp_ns) {
   std::vector<PairRecord> evaluated;
   for (const PairRecord& record : records_) {
-    if (record.stamp_ns == stamp_ns && held_.count({record.pose, record.pair}) == 0)
-      evaluated.push_back(record);
+    if (record.stamp_ns == stamp_ns && !isOfEarlierRun(record)) evaluated.push_back(record);
   }
   for (const PairRecord& record : evaluated) {
     if (isLeftOut(stamp_ns, record.pose, record.pair)) withdraw(stamp_ns, record.pair);
@@ -66,8 +62,49 @@ void Evaluation::State::removePictures(std::int64_t stamp_ns, std::int64_t pose)
 bool Evaluation::State::isLeftOutCapture(const std::string& stream, const CaptureRecord& capture) const {
   const auto number = static_cast<std::size_t>(
       std::find(options_.streams.begin(), options_.streams.end(), stream) - options_.streams.begin());
-  const std::int64_t pose = poses_.settled(capture.stamp_ns, capture.pose);
+  const std::int64_t pose = poses_.known(capture.stamp_ns).value_or(capture.pose);
   return suns_.isOther(stream, capture.stamp_ns) && isAskedFor(number, capture.stamp_ns, pose);
+}
+
+// With the first capture, what was by order until then waits for captures of its own.
+void Evaluation::State::learn(const CaptureRecord& capture) {
+  const bool was_by_order = poses_.isByOrder();
+  if (was_by_order) completed_.forgetNumbers();
+  poses_.learn(capture.stamp_ns, capture.pose);
+  for (PictureWriter* writer : {pictures_.get(), drawn_.get()}) {
+    if (writer != nullptr && was_by_order) writer->setAside();
+    if (writer != nullptr && poses_.wasByOrder(capture.stamp_ns))
+      writer->give(capture.stamp_ns, capture.pose);
+  }
+  const bool is_done = sets_.isTaken(capture.stamp_ns) && under_way_.count(capture.stamp_ns) == 0;
+  if (is_done && poses_.wasByOrder(capture.stamp_ns)) complete(capture.pose);
+}
+
+// What was evaluated by order before the first capture came, at the end: each stamp has the pose that its
+// capture tells by now, or none. Of two stamps of one pose the earlier one counts, as in takes().
+void Evaluation::State::leaveOutUnplaced() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!poses_.isByCapture()) return;
+  StampsOfPairs counting;
+  for (const PairRecord& record : records_) {
+    const std::optional<std::int64_t> pose = poses_.settled(record.stamp_ns, record.pose);
+    if (!pose) continue;
+    std::int64_t& stamp = counting.emplace(std::make_pair(*pose, record.pair), record.stamp_ns).first->second;
+    stamp = std::min(stamp, record.stamp_ns);
+  }
+  std::vector<PairRecord> left_out;
+  for (const PairRecord& record : records_) {
+    const std::optional<std::int64_t> pose = poses_.settled(record.stamp_ns, record.pose);
+    if (!pose || counting.at({*pose, record.pair}) != record.stamp_ns) left_out.push_back(record);
+  }
+  for (const PairRecord& record : left_out) {
+    const std::optional<std::int64_t> pose = poses_.settled(record.stamp_ns, record.pose);
+    withdraw(record.stamp_ns, record.pair);
+    PairCounts& counts = counts_.pairs[record.pair];
+    ++(pose ? counts.duplicate : counts.unplaced);
+    report({pose ? "duplicate" : "unplaced", pose, record.stamp_ns, options_.pairs[record.pair].name(),
+            pose ? kEarlierCounts : kNoCapture});
+  }
 }
 
 // Streams and stamps that a run in `folder`, or one before it, left out.

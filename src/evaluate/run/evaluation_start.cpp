@@ -163,6 +163,23 @@ void takeUpSuns(const std::vector<PairSpec>& pairs, const std::vector<PairRecord
   for (const auto& [stream, captures] : by_stream) use(stream, captures);
 }
 
+/// Nothing but the expected poses is on a whole path: with others its summary would be of more poses than it
+/// tells, and pictures that were kept of those would go.
+void requireNothingBeside(const EvaluationOptions& options, const std::vector<PairRecord>& records) {
+  if (!options.is_whole_path || options.poses.size() == 0) return;
+  std::set<std::int64_t> evaluated, beside;
+  for (const PairRecord& record : records) {
+    evaluated.insert(record.pose);
+    if (!options.poses.holds(record.pose)) beside.insert(record.pose);
+  }
+  if (beside.empty()) return;
+  throw std::invalid_argument(
+      "output_dir " + options.output_dir + (options.merge.empty() ? "" : ", with what is merged,") +
+      " holds " + std::to_string(evaluated.size()) + " evaluated poses, and " +
+      std::to_string(beside.size()) + " of them are not among the " + std::to_string(options.poses.size()) +
+      " of this path: choose another output_dir, or as many poses as before");
+}
+
 }  // namespace
 
 Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks callbacks)
@@ -265,23 +282,6 @@ void Evaluation::State::requireNothingForgotten() const {
       std::to_string(wanted) + ": choose another output_dir, or poses: " + std::to_string(whole));
 }
 
-// Nothing but the expected poses is on a whole path: with others its summary would be of more poses than it
-// tells, and pictures that were kept of those would go.
-void Evaluation::State::requireNothingBeside() const {
-  if (!options_.is_whole_path || options_.poses.size() == 0) return;
-  std::set<std::int64_t> evaluated, beside;
-  for (const PairRecord& record : records_) {
-    evaluated.insert(record.pose);
-    if (!options_.poses.holds(record.pose)) beside.insert(record.pose);
-  }
-  if (beside.empty()) return;
-  throw std::invalid_argument(
-      "output_dir " + options_.output_dir + (options_.merge.empty() ? "" : ", with what is merged,") +
-      " holds " + std::to_string(evaluated.size()) + " evaluated poses, and " +
-      std::to_string(beside.size()) + " of them are not among the " + std::to_string(options_.poses.size()) +
-      " of this path: choose another output_dir, or as many poses as before");
-}
-
 // Whether earlier runs evaluated every pair that is wanted of it.
 bool Evaluation::State::isHeldWhole(std::int64_t pose) const {
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
@@ -325,7 +325,7 @@ void Evaluation::State::takeUpEarlierRuns() {
   rankAll();
   takeUpPoses();
   requireNothingForgotten();
-  requireNothingBeside();
+  requireNothingBeside(options_, records_);
   writeRunFile(file("run.yaml"), options_, nullptr, nullptr);  // not before: what is refused changes nothing
   if (left.torn + left.asked_again > 0 || !options_.merge.empty()) writeRecords();
   frames_file_.open(file("frames.csv"), framesHeader());

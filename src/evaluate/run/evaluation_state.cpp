@@ -19,10 +19,17 @@ bool Evaluation::State::isWanted(std::size_t pair, std::int64_t pose) const {
 }
 
 // So that this stamp is not evaluated. By a rate the earlier of two stamps of a pose counts, even where that
-// other one was evaluated before; without one, a run may give a pose another stamp than the run before.
+// other one was evaluated before; without one, a run may give a pose another stamp than the run before. Where
+// captures tell poses now, and order did before, nobody knows whether that run had this pose.
 bool Evaluation::State::isHeld(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) const {
   const auto held = held_.find({pose, pair});
-  return held != held_.end() && (!poses_.hasRate() || held->second <= stamp_ns);
+  if (held == held_.end()) return false;
+  return poses_.hasRate() ? held->second <= stamp_ns : poses_.settled(held->second, pose) == pose;
+}
+
+bool Evaluation::State::isOfEarlierRun(const PairRecord& record) const {
+  const auto held = held_.find({record.pose, record.pair});
+  return held != held_.end() && held->second == record.stamp_ns;
 }
 
 // Whether a picture is of any pair that earlier runs did not evaluate.
@@ -170,8 +177,8 @@ void Evaluation::State::noteLossy(std::size_t stream) {
 void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_) return;
-  poses_.learn(capture.stamp_ns, capture.pose);
-  const std::int64_t pose = poses_.settled(capture.stamp_ns, capture.pose);
+  learn(capture);
+  const std::int64_t pose = poses_.known(capture.stamp_ns).value_or(capture.pose);
   const bool is_first =
       record_files_->add(options_.streams.at(stream), capture, !isAskedFor(stream, capture.stamp_ns, pose));
   if (!capture.utc && !capture.utc_text.empty())
@@ -261,34 +268,36 @@ bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::o
     ++counts.unplaced;
     report({"unplaced", pose, set.stamp_ns, where,
             options_.frame_rate > 0.0 ? "its stamp lies before stamp_start"
-            : thinnedPair(options_)   ? "no capture of this stamp says which pose it is, as every of a pair "
-                                        "needs, or a frame_rate"
-                                      : "no capture of this stamp says which pose it is"});
+            : thinnedPair(options_) ? kNoCapture + std::string(", as every of a pair needs, or a frame_rate")
+                                    : kNoCapture});
     return false;
   }
   return true;
 }
 
 // Whether it is to be evaluated. Two stamps may round to one pose. The earlier one counts, in whatever order
-// they come; the later one is counted and named.
+// they come; the later one is counted and named. Numbers by order differ, and keep no pose that a capture may
+// tell from another stamp: leaveOutUnplaced() sees to them.
 bool Evaluation::State::takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) {
+  if (poses_.isByOrder()) return !isHeld(stamp_ns, pose, pair);
   const auto held = held_.find({pose, pair});
   const auto [taken, is_first] = taken_.emplace(std::make_pair(pose, pair), stamp_ns);
   if (!is_first) {
     ++counts_.pairs[pair].duplicate;
-    report({"duplicate", pose, std::max(stamp_ns, taken->second), options_.pairs[pair].name(),
-            "an earlier stamp is of this pose too, and counts"});
+    report(
+        {"duplicate", pose, std::max(stamp_ns, taken->second), options_.pairs[pair].name(), kEarlierCounts});
     if (stamp_ns > taken->second) return false;
-    if (held == held_.end()) withdraw(taken->second, pair);
+    if (held == held_.end() || held->second != taken->second) withdraw(taken->second, pair);
     taken->second = stamp_ns;
   }
   return !isHeld(stamp_ns, pose, pair);
 }
 
-// What an earlier run evaluated of a later stamp of this pose, once there is something in its place.
+// What an earlier run evaluated of a later stamp of this pose, by a rate, once there is something in its
+// place.
 void Evaluation::State::replaceHeld(std::int64_t pose, std::size_t pair) {
   const auto held = held_.find({pose, pair});
-  if (held == held_.end()) return;
+  if (held == held_.end() || !poses_.hasRate()) return;
   withdraw(held->second, pair);
   held_.erase(held);
 }
@@ -300,7 +309,7 @@ void Evaluation::State::withdraw(std::int64_t stamp_ns, std::size_t pair) {
   });
   if (found == records_.end()) return;
   PairCounts& counts = counts_.pairs[pair];
-  --(held_.count({found->pose, pair}) != 0 ? counts.resumed : counts.evaluated);
+  --(isOfEarlierRun(*found) ? counts.resumed : counts.evaluated);
   records_.erase(found);
   withdrawVerified(stamp_ns, pair);
 }
@@ -320,6 +329,7 @@ void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t>
   }
   if (!pose) return;
   work.pose = *pose;
+  work.is_by_order = poses_.isByOrder();
   work.pictures = keptPictures(set, *pose, !work.pairs.empty());
   work.is_drawn = drawn_ && isSample(*pose);
   claimDrawn(work);
@@ -343,7 +353,7 @@ void Evaluation::State::handOver(Work work, const StampSet& set) {
 }
 
 void Evaluation::State::complete(std::int64_t pose) {
-  completed_.add(pose);
+  poses_.isByOrder() ? completed_.addNumber(pose) : completed_.add(pose);
   if (callbacks_.progress) callbacks_.progress(completed_.passed());
 }
 

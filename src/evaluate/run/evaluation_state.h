@@ -66,12 +66,12 @@ class Evaluation::State {
   void takeUpEarlierRuns();
   void requireMergeable(const std::string& folder) const;
   void requireNothingForgotten() const;
-  void requireNothingBeside() const;
   LeftLines takeUp(const std::string& folder);
   void tellTakenUp(const LeftLines& left) const;
   void noteLeftOutBefore(const std::string& folder);
   void settleTakenUp();
   bool isHeldWhole(std::int64_t pose) const;
+  bool isOfEarlierRun(const PairRecord& record) const;
   void takeUpPoses();
   std::size_t nameAbsentPoses();
   bool isWanted(std::size_t pair, std::int64_t pose) const;
@@ -91,10 +91,11 @@ class Evaluation::State {
   void replaceHeld(std::int64_t pose, std::size_t pair);
   void withdraw(std::int64_t stamp_ns, std::size_t pair);
   bool isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
-  bool isOfOtherSun(std::int64_t stamp_ns, std::size_t pair);
   bool isLeftOut(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
   void nameOtherSuns(std::size_t stream, const std::vector<OtherSun>& others);
+  void learn(const CaptureRecord& capture);
   void separate(std::int64_t stamp_ns);
+  void leaveOutUnplaced();
   void removePictures(std::int64_t stamp_ns, std::int64_t pose);
   bool isLeftOutCapture(const std::string& stream, const CaptureRecord& capture) const;
   bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
@@ -140,7 +141,6 @@ class Evaluation::State {
   void keepFinalDrawn();
   void writeLostFeatures();
   bool hasForgottenFeatures() const;
-  void forgetLostFeatures();
   void withdrawVerified(std::int64_t stamp_ns, std::size_t pair);
   std::size_t takeUpVerified(const std::string& folder, std::vector<PairRecord>& frames);
   void settleRecords();

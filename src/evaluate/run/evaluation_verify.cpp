@@ -137,10 +137,6 @@ bool Evaluation::State::hasForgottenFeatures() const {
   return isVerifying() && has_any && !verified_layout_.differences.empty() && !holdsLost(file(kLostFile));
 }
 
-void Evaluation::State::forgetLostFeatures() {
-  if (isVerifying() && isWholePath()) std::filesystem::remove(file(kLostFile));
-}
-
 std::string Evaluation::State::drawnName(std::size_t pair, std::size_t detector) const {
   return options_.pairs[pair].name() + "/" + verified_layout_.differences[detector];
 }
@@ -201,7 +197,8 @@ std::size_t Evaluation::State::takeUpVerified(const std::string& folder, std::ve
 
 void Evaluation::State::settleRecords() {
   const auto settle = [this](auto& records) {
-    for (auto& record : records) record.pose = poses_.settled(record.stamp_ns, record.pose);
+    for (auto& record : records)
+      record.pose = poses_.settled(record.stamp_ns, record.pose).value_or(record.pose);
     sortRecords(records);
   };
   settle(records_);

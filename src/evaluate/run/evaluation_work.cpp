@@ -142,7 +142,9 @@ void Evaluation::State::tell(const Work& work, const std::vector<PairRecord>& re
 
 // From here on the work is accounted for.
 void Evaluation::State::settle(const Work& work) {
-  completed_.add(work.pose);
+  const std::optional<std::int64_t> pose = poses_.settled(work.stamp_ns, work.pose);
+  if (poses_.isByOrder()) completed_.addNumber(work.pose);
+  if (!poses_.isByOrder() && pose) completed_.add(*pose);
   const auto [first, last] = under_way_.equal_range(work.stamp_ns);
   const auto found = std::find_if(first, last, [&](const auto& item) { return item.second.get() == &work; });
   if (found != last) under_way_.erase(found);
@@ -165,7 +167,7 @@ void Evaluation::State::giveUp(const Work& work) {
 std::optional<PairRecord> Evaluation::State::keep(const Work& work, const Values& values, std::size_t i) {
   const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values.differences[i]};
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return std::nullopt;
+  if (!work.is_by_order && taken_.at({record.pose, record.pair}) != record.stamp_ns) return std::nullopt;
   if (isLeftOut(record.stamp_ns, record.pose, record.pair)) return std::nullopt;
   if (values.faults[i]) {
     ++counts_.pairs[record.pair].failed;

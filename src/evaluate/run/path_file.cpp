@@ -36,7 +36,7 @@ void PathFile::read(const std::string& folder) {
   if (taken_up_.empty()) return;
   std::string lines;
   std::int64_t rank = 0;
-  for (const auto& [stamp, place] : taken_up_) lines += lineOf(poses_.settled(stamp, rank++), place);
+  for (const auto& [stamp, place] : taken_up_) lines += lineOf(poses_.known(stamp).value_or(rank++), place);
   write(lines);  // without torn ends, before going on
 }
 
@@ -116,18 +116,21 @@ LeftOutPlaces PathFile::finish(const std::function<bool(std::int64_t)>& is_of_tw
   };
   std::map<std::int64_t, PlaceRecord> by_rank;
   std::int64_t rank = 0;
-  for (const auto& item : taken_up_) {
-    if (!is_of_two(item.second) && !put(item.second)) by_rank.emplace(rank, item.second);
+  std::size_t unplaced = 0;
+  for (const auto& [stamp, place] : taken_up_) {
+    const bool is_lacking = !is_of_two(place) && !put(place);
+    if (is_lacking && poses_.wasByOrder(stamp)) ++unplaced;
+    if (is_lacking && !poses_.wasByOrder(stamp)) by_rank.emplace(rank, place);
     ++rank;
   }
   for (const auto& item : found_) {
-    if (item.second && !is_of_two(*item.second) && !put(*item.second)) ++left_out_;
+    if (item.second && !is_of_two(*item.second) && !put(*item.second)) ++unplaced;
   }
   by_pose.merge(by_rank);
   std::string lines;
   for (const auto& [pose, place] : by_pose) lines += lineOf(pose, place);
   by_pose.empty() ? remove() : write(lines);
-  return {left_out_ + waiting_.size(), of_two.size()};
+  return {left_out_ + waiting_.size(), unplaced, of_two.size()};
 }
 
 }  // namespace sunlit::evaluate

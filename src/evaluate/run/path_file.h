@@ -18,7 +18,8 @@ namespace sunlit::evaluate {
 /// Places that are not in the file.
 struct LeftOutPlaces {
   std::size_t without_image = 0;
-  std::size_t of_two = 0;  ///< of a stamp of which poses of two places came
+  std::size_t unplaced = 0;  ///< of a stamp of which no capture says which pose it is
+  std::size_t of_two = 0;    ///< of a stamp of which poses of two places came
 };
 
 /// A place counts where an image has its stamp; with a frame rate, of those that round to the pose of an

@@ -24,6 +24,10 @@ void PoseIndex::remember(std::int64_t stamp_ns, std::int64_t pose) {
 }
 
 void PoseIndex::settleRemembered() {
+  if (isByCapture()) {  // so were theirs
+    numbered_.clear();
+    return;
+  }
   for (const auto& item : numbered_) remembered_.insert(item.second);
   const bool are_expected = std::all_of(remembered_.begin(), remembered_.end(),
                                         [this](std::int64_t pose) { return expected_.holds(pose); });
@@ -46,7 +50,7 @@ std::optional<std::int64_t> PoseIndex::byRate(std::int64_t stamp_ns) const {
 }
 
 std::optional<std::int64_t> PoseIndex::of(std::int64_t stamp_ns) {
-  if (by_order_ && !hasRate() && learnt_.empty()) {
+  if (isByOrder()) {
     while (remembered_.count(next_) != 0) next_ += expected_.stride;
     if (numbered_.emplace(stamp_ns, next_).second) next_ += expected_.stride;
   }
@@ -59,6 +63,12 @@ std::optional<std::int64_t> PoseIndex::known(std::int64_t stamp_ns) const {
   const auto found = told.find(stamp_ns);
   if (found == told.end()) return std::nullopt;
   return found->second;
+}
+
+std::optional<std::int64_t> PoseIndex::settled(std::int64_t stamp_ns, std::int64_t number) const {
+  const std::optional<std::int64_t> pose = known(stamp_ns);
+  if (pose || wasByOrder(stamp_ns)) return pose;
+  return number;
 }
 
 bool PoseIndex::isNearer(std::int64_t stamp_ns, std::int64_t other_ns) const {

@@ -12,7 +12,8 @@ namespace sunlit::evaluate {
 
 /// Three rules, the first that applies: by `stamp_start` and `frame_rate` where a rate is given; as the
 /// captures say, once any capture came; else by the order of the stamps, as the expected poses follow each
-/// other. That is only known at the end, so that what must know a pose earlier rules it out.
+/// other. That is only known at the end, so that what must know a pose earlier rules it out. Numbers by order
+/// are forgotten once a capture comes: a stamp then has the pose of its own, or none.
 class PoseIndex {
  public:
   /// `frame_rate` in Hz; 0: not given. `by_order`: the third rule may apply.
@@ -32,10 +33,15 @@ class PoseIndex {
   void rank();
   /// The same as of(), but by order nothing for a stamp that is of no image as far as known.
   std::optional<std::int64_t> known(std::int64_t stamp_ns) const;
-  std::int64_t settled(std::int64_t stamp_ns, std::int64_t fallback) const {
-    return known(stamp_ns).value_or(fallback);
-  }
+  /// What is known of the pose of something that was given `number`: that number where this does not know
+  /// better; nothing where it was one by order, and captures tell poses by now, but not this one.
+  std::optional<std::int64_t> settled(std::int64_t stamp_ns, std::int64_t number) const;
   bool hasRate() const { return frame_rate_ > 0.0; }
+  /// Numbers that of() gives are by order, as long as no capture comes.
+  bool isByOrder() const { return by_order_ && !hasRate() && learnt_.empty(); }
+  bool isByCapture() const { return !hasRate() && !learnt_.empty(); }
+  /// It was given a number by order before the first capture came.
+  bool wasByOrder(std::int64_t stamp_ns) const { return isByCapture() && numbered_.count(stamp_ns) != 0; }
   /// Whether a place of one stamp counts before an earlier one of `other_ns`, of the same pose: by a rate
   /// where it is nearer to the stamp that this gives the pose, or as near and not later; else always.
   bool isNearer(std::int64_t stamp_ns, std::int64_t other_ns) const;

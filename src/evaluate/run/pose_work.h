@@ -20,6 +20,7 @@ namespace sunlit::evaluate {
 struct PoseWork {
   std::int64_t pose = 0;
   std::int64_t stamp_ns = 0;
+  bool is_by_order = false;     // its pose, which a capture may still correct
   std::vector<cv::Mat> images;  // by stream
   std::vector<std::size_t> pairs;
   std::vector<std::size_t> pictures;  // streams whose image is kept

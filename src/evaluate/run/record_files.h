@@ -82,6 +82,10 @@ inline constexpr const char* kUnexpected = "unexpected";
 /// Of what an earlier run left out, as of other suns or two places, or had no time to: it is asked for again.
 inline constexpr const char* kLeftOutBefore = "left_out_before";
 
+/// Problem::reason of a stamp without a pose, and of the later one of two of one pose.
+inline constexpr const char* kNoCapture = "no capture of this stamp says which pose it is";
+inline constexpr const char* kEarlierCounts = "an earlier stamp is of this pose too, and counts";
+
 /// Poses by the stamps of images that problems.csv of `folder` names, but of unexpected ones.
 std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder);
 

@@ -54,7 +54,7 @@ class TestBags(unittest.TestCase):
     def path(self, name):
         return self.folder.name + '/' + name
 
-    def write_bags(self, names, poses=range(POSES), begin=0.0, frame='', root='/'):
+    def write_bags(self, names, poses=range(POSES), begin=0.0, frame='', root='/', without_captures=()):
         for name, streams in names.items():
             with rosbag.Bag(self.path(name), 'w') as bag:
                 for pose in poses:
@@ -70,7 +70,8 @@ class TestBags(unittest.TestCase):
                         topic = root + '%s/camera/' % STREAMS[stream]
                         bag.write(topic + 'image_raw', image_message(stamp_of(pose), picture(pose, stream, 160, 120)),
                                   stamp_of(pose))
-                        bag.write(topic + 'capture', capture, stamp_of(pose))
+                        if pose not in without_captures:
+                            bag.write(topic + 'capture', capture, stamp_of(pose))
 
     def evaluate_bags(self, *arguments, **environment):
         return subprocess.run([located('evaluate_bags')] + list(arguments), stdout=subprocess.PIPE,
@@ -132,6 +133,21 @@ class TestBags(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
         for name in RESULTS + ['captures.csv', 'path.csv']:
             self.assertEqual(read(self.path('merged'), name), read(self.path('offline'), name))
+
+    def test_images_before_the_first_capture_have_no_pose_of_their_own_making(self):
+        self.write_bags({'cut.bag': [0, 1]}, range(20, 26), without_captures=(20, 21))
+        with open(self.path('two.yaml'), 'w') as file:
+            yaml.safe_dump({'streams': ['h04', 'h12'], 'output_dir': 'unused', 'differences': ['euclidean_grey'],
+                            'report': False}, file)
+        done = self.evaluate_bags('--config', self.path('two.yaml'), '--out', self.path('out'), self.path('cut.bag'))
+        self.assertEqual(done.returncode, 3, done.stdout)
+        self.assertIn('2 unplaced (h04-h12)', done.stdout)
+        self.assertIn('path.csv: 2 poses of stamps of which no capture says which pose they are left out', done.stdout)
+        self.assertNotIn('without an image', done.stdout)
+        for name in ('frames.csv', 'path.csv'):
+            self.assertEqual([row['pose'] for row in rows(self.path('out'), name)], ['22', '23', '24', '25'], name)
+        self.assertEqual([(row['kind'], row['pose'], row['stamp']) for row in rows(self.path('out'), 'problems.csv')],
+                         [('unplaced', '', '%.9f' % stamp_of(pose).to_sec()) for pose in (20, 21)])
 
     def test_detectors_of_ones_own_look_at_pictures_that_were_made_for_them(self):
         self.write_bags({'all.bag': [0, 1]}, range(2))

@@ -47,5 +47,23 @@ TEST(AccountedPoses, AreAllPassedWhereNobodySaidWhichAreExpected) {
   EXPECT_FALSE(poses.isWhole());
 }
 
+TEST(AccountedPoses, ByTheirOrderCountUntilTheyAreKnown) {
+  AccountedPoses poses(rangeOf(3));
+  for (const std::int64_t number : {0, 1, 2}) poses.addNumber(number);
+  EXPECT_TRUE(poses.isWhole());
+  poses.addNumber(7);
+  poses.add(1);
+  EXPECT_EQ(poses.passed(), 4u);
+  EXPECT_EQ(poses.unexpected(), 1u);
+  poses.forgetNumbers();
+  EXPECT_EQ(poses.size(), 1u);
+  EXPECT_TRUE(poses.has(1));
+  EXPECT_EQ(poses.unexpected(), 0u);
+  EXPECT_FALSE(poses.isWhole());
+  EXPECT_EQ(poses.passed(), 4u) << "what a sender was told stays";
+  for (const std::int64_t pose : {0, 2}) poses.add(pose);
+  EXPECT_TRUE(poses.isWhole());
+}
+
 }  // namespace
 }  // namespace sunlit::evaluate

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
+#include <iterator>
 
 #include "evaluate/run/pose_index.h"
 #include "unit/evaluate/run/small_evaluation.h"
@@ -120,6 +122,158 @@ TEST(PosesByOrder, AreNotTakenForThoseOfCapturesThatComeLater) {
   const std::string frames = contentOf(folder.file("out/frames.csv"));
   for (const char* even : {"8,", "10,"}) EXPECT_TRUE(hasLine(frames, even)) << frames;
   for (const char* odd : {"7,", "9,"}) EXPECT_FALSE(hasLine(frames, odd)) << frames;
+}
+
+void tell(Evaluation& evaluation, std::int64_t stamp, std::int64_t pose) {
+  CaptureRecord capture;
+  capture.pose = pose;
+  capture.stamp_ns = stampOf(stamp);
+  for (std::size_t s = 0; s < evaluation.options().streams.size(); ++s) evaluation.addCapture(s, capture);
+}
+
+/// All of a stamp, which is evaluated before anything else comes.
+void evaluateStamp(Evaluation& evaluation, std::int64_t stamp) {
+  PlaceRecord place;
+  place.stamp_ns = stampOf(stamp);
+  place.x_m = static_cast<double>(stamp);
+  evaluation.addPlace(place);
+  feedPose(evaluation, stamp);
+  evaluation.waitForRoom(0);
+}
+
+EvaluationOptions unlimited(const TemporaryFolder& folder) {
+  EvaluationOptions options = tenPoses(folder);
+  options.poses.count = 0;
+  return options;
+}
+
+// As of a bag that begins amid a path, and whose first captures are missing.
+TEST(PosesBeforeTheFirstCapture, AreUnplacedWhereNoCaptureTellsThem) {
+  const TemporaryFolder folder;
+  std::string notes;
+  EvaluationCallbacks callbacks;
+  callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+  Evaluation evaluation(unlimited(folder), callbacks);
+  for (std::int64_t stamp = 0; stamp < 6; ++stamp) {
+    evaluateStamp(evaluation, stamp);
+    if (stamp >= 2) tell(evaluation, stamp, 248 + stamp);
+  }
+  const Outcome outcome = evaluation.finish();
+  EXPECT_FALSE(outcome.isWhole());
+  EXPECT_EQ(outcome.counts.completed_poses, 4u);
+  for (const PairCounts& pair : outcome.counts.pairs) {
+    EXPECT_EQ(pair.evaluated, 4u);
+    EXPECT_EQ(pair.unplaced, 2u);
+  }
+  EXPECT_EQ(outcome.summary[0].statistics.n, 4u);
+  const std::string frames = contentOf(folder.file("out/frames.csv"));
+  EXPECT_TRUE(hasLine(frames, "250,500.200000000,h04,h12,")) << frames;
+  for (const char* invented : {"0,", "1,"}) EXPECT_FALSE(hasLine(frames, invented)) << frames;
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  for (const char* stamp : {"500.000000000", "500.100000000"})
+    EXPECT_TRUE(hasLine(problems, std::string("unplaced,,") + stamp +
+                                      ",h04-h12,no capture of this stamp says which pose it is\n"))
+        << problems;
+  const std::string path = contentOf(folder.file("out/path.csv"));
+  EXPECT_EQ(path.rfind("pose,stamp,x,y,z,yaw_deg\n250,500.200000000,2,", 0), 0u) << path;
+  EXPECT_NE(
+      notes.find("/path.csv: 2 poses of stamps of which no capture says which pose they are left out\n"),
+      std::string::npos)
+      << notes;
+  EXPECT_EQ(notes.find("without an image"), std::string::npos) << notes;
+  const auto pictures = std::filesystem::directory_iterator(folder.file("out/images/h12"));
+  EXPECT_EQ(std::distance(begin(pictures), end(pictures)), 4);
+}
+
+// By order the first two were 0 and 1, which are poses of stamps that come later.
+TEST(PosesBeforeTheFirstCapture, AreThoseOfTheirOwnCapturesAndTakeNoOthers) {
+  const TemporaryFolder folder;
+  Evaluation backwards(tenPoses(folder), {});
+  for (const std::int64_t stamp : {0, 1}) evaluateStamp(backwards, stamp);
+  for (const std::int64_t stamp : {0, 1}) tell(backwards, stamp, kPoses - 1 - stamp);
+  for (std::int64_t stamp = 2; stamp < kPoses; ++stamp) {
+    EXPECT_FALSE(backwards.isComplete()) << stamp;
+    EXPECT_EQ(backwards.counts().passed_poses, static_cast<std::size_t>(stamp));
+    tell(backwards, stamp, kPoses - 1 - stamp);
+    evaluateStamp(backwards, stamp);
+  }
+  EXPECT_TRUE(backwards.isComplete());
+  const Outcome outcome = backwards.finish();
+  EXPECT_TRUE(outcome.isWhole()) << contentOf(folder.file("out/problems.csv"));
+  EXPECT_EQ(outcome.counts.pairs[0].evaluated, 10u);
+  const std::string frames = contentOf(folder.file("out/frames.csv"));
+  const std::string path = contentOf(folder.file("out/path.csv"));
+  filesOfUndisturbedRun(folder);
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    const std::int64_t stamp = kPoses - 1 - pose;
+    const std::string line = std::to_string(pose) + ",500." + std::to_string(stamp) + "00000000,";
+    EXPECT_TRUE(hasLine(frames, line + "h04,h12,")) << line << "\n" << frames;
+    EXPECT_TRUE(hasLine(path, line + std::to_string(stamp) + ",")) << line << "\n" << path;
+    const auto pictureOf = [&](const std::string& out, std::int64_t number) {
+      return contentOf(folder.file(out) + "/images/h12/00000" + std::to_string(number) + ".png");
+    };
+    EXPECT_EQ(pictureOf("out", pose), pictureOf("undisturbed", stamp)) << pose;
+  }
+}
+
+TEST(PosesBeforeTheFirstCapture, AreAbsentUnderTheNumbersThatOnlyOrderGave) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(tenPoses(folder), {});
+  evaluateStamp(evaluation, 0);
+  evaluateStamp(evaluation, 1);
+  for (std::int64_t stamp = 2; stamp < 6; ++stamp) {
+    tell(evaluation, stamp, 4 + stamp);
+    evaluateStamp(evaluation, stamp);
+  }
+  const Outcome outcome = evaluation.finish();
+  EXPECT_EQ(outcome.absent_poses, 6u);
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "absent,0,,"));
+}
+
+// A loop, whose last pose is its first again: the capture of the first stamp comes when that has come, too.
+TEST(PosesBeforeTheFirstCapture, CountBeforeALaterStampOfTheirPose) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(unlimited(folder), {});
+  evaluateStamp(evaluation, 0);
+  for (const std::int64_t stamp : {1, 2}) {
+    tell(evaluation, stamp, stamp == 1 ? 8 : 7);
+    evaluateStamp(evaluation, stamp);
+  }
+  tell(evaluation, 0, 7);
+  const Outcome outcome = evaluation.finish();
+  for (const PairCounts& pair : outcome.counts.pairs) {
+    EXPECT_EQ(pair.evaluated, 2u);
+    EXPECT_EQ(pair.duplicate, 1u);
+  }
+  EXPECT_EQ(outcome.counts.completed_poses, 2u);
+  const std::string frames = contentOf(folder.file("out/frames.csv"));
+  EXPECT_TRUE(hasLine(frames, "7,500.000000000,h04,h12,")) << frames;
+  EXPECT_FALSE(hasLine(frames, "7,500.200000000,")) << frames;
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  EXPECT_TRUE(hasLine(problems, "duplicate,7,500.200000000,h04-h12,")) << problems;
+}
+
+// The run before ended without a capture, and this one has other stamps.
+TEST(PosesBeforeTheFirstCapture, GiveWayToThoseThatCapturesTellARunThatGoesOn) {
+  const TemporaryFolder folder;
+  {
+    Evaluation killed(unlimited(folder), {});
+    evaluateStamp(killed, 0);
+  }
+  Evaluation evaluation(unlimited(folder), {});
+  for (const std::int64_t stamp : {5, 6}) {
+    tell(evaluation, stamp, stamp - 5);
+    evaluateStamp(evaluation, stamp);
+  }
+  const Outcome outcome = evaluation.finish();
+  for (const PairCounts& pair : outcome.counts.pairs) {
+    EXPECT_EQ(pair.evaluated, 2u);
+    EXPECT_EQ(pair.resumed, 0u);
+    EXPECT_EQ(pair.unplaced, 1u);
+  }
+  const std::string frames = contentOf(folder.file("out/frames.csv"));
+  EXPECT_TRUE(hasLine(frames, "0,500.500000000,h04,h12,")) << frames;
+  EXPECT_FALSE(hasLine(frames, "0,500.000000000,")) << frames;
 }
 
 // Hours of images: to count one by one up to each takes half a minute.
