@@ -113,7 +113,7 @@ TEST_F(TransportCache, RebuildsWhatIsDamagedCutShortOrForeign) {
   setContent(file, damaged);
   expectRebuilt(world, "is damaged", expected);
 
-  for (const std::size_t size : {good.size() - 1, good.size() / 2, std::size_t{300}}) {
+  for (const std::size_t size : {good.size() - 1, good.size() / 2, std::size_t{330}}) {
     setContent(file, good.substr(0, size));
     expectRebuilt(world, "is cut short", expected);
   }
