@@ -1,17 +1,22 @@
 #include "light/picture/surface_lighting.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "light/geometry/ray_list.h"
 #include "light/geometry/ray_start.h"
 #include "light/patches/least_disc.h"
 #include "light/picture/mirror/shining_list.h"
 #include "light/shading/direct_parts.h"
 #include "light/shading/shading.h"
 #include "light/shading/surface_reflection.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
+
+constexpr float kWhole = 0.999f;  ///< of a disc: all of it
 
 const std::vector<scene::Lamp>& lampsOf(const Illumination& light) {
   static const std::vector<scene::Lamp> none;
@@ -36,6 +41,17 @@ std::unique_ptr<const Glints> glintsOf(const sky::DiscLight& disc, const Surface
   return Glints::of(disc, leastDisc_lx(light.day), {subject.ready, subject.visibility, *light.glint_nodes});
 }
 
+/// Whether anything that light comes through takes so much of it that a pixel at the edge of a patch of light
+/// shows whether that was asked of a ray of the disc which comes through, or of one which is stopped.
+bool hasDarkVeils(const scene::Scene& scene) {
+  constexpr float kClear = 0.8f;
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& material) {
+    const float clear =
+        isGlass(material) ? material.glass * material.base_color.value.minCoeff() : 1.0f - material.alpha;
+    return seenThrough(material) && clear < kClear;
+  });
+}
+
 }  // namespace
 
 SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& light)
@@ -55,7 +71,9 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
              {surfaces_, scene_, subject.visibility,
               mirrorsByRays(subject.visibility.fixedGeometry(),
                             subject.in_mirrors ? Onlooker::kMirrors : Onlooker::kCamera)}),
+      visibility_(subject.visibility),
       glass_(subject.visibility),
+      dark_veils_(hasDarkVeils(subject.scene)),
       broken_cloud_(light.day.hasBrokenCloud()) {}
 
 Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::size_t index) const {
@@ -64,6 +82,46 @@ Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::
   const Surface& surface = tile.surfaces[index];
   if (broken_cloud_) share *= light_.day.throughCloud(disc.light, surface.position);
   if (!glass_.anyVeils()) return Eigen::Array3f::Constant(share);
+  return share * (dark_veils_ && disc.shares[index] < kWhole ? throughAtEdge(disc, tile, surface)
+                                                             : throughVeils(disc, tile, surface));
+}
+
+/// By the rays that nothing stops, of four around the disc's middle and each of the surface's samples; none:
+/// all are stopped.
+std::optional<Eigen::Array3f> SurfaceLighting::throughAround(const Disc& disc, float reach, const Tile& tile,
+                                                             const Surface& surface) const {
+  constexpr std::uint32_t kPoints = 4;
+  const Eigen::Vector3f middle = disc.visibility.towards(), right = middle.unitOrthogonal(),
+                        up = middle.cross(right);
+  thread_local RayList rays;
+  thread_local std::vector<std::uint8_t> blocked;
+  rays.clear();
+  rays.reserve(kPoints * surface.samples);
+  const auto visit = [&](const auto& see) {
+    for (std::uint32_t k = 0; k < kPoints * surface.samples; ++k) {
+      const float angle = (static_cast<float>(k % kPoints) + 0.5f) * (0.5f * kPiFloat);
+      const Eigen::Vector3f aside = std::cos(angle) * right + std::sin(angle) * up;
+      const Eigen::Vector3f towards = middle + reach * disc.visibility.radius_rad() * aside;
+      see(k, rayStart(tile, surface.first_sample + k / kPoints, surface, towards), towards);
+    }
+  };
+  visit([&](std::uint32_t k, const Eigen::Vector3f& origin, const Eigen::Vector3f& towards) {
+    rays.add(k, origin, towards);
+  });
+  blocked.resize(rays.size());
+  visibility_.occluded(rays.rays(), blocked.data(), Visibility::Blends::kLetPass);
+  const auto passed = std::count(blocked.begin(), blocked.end(), 0);
+  if (passed == 0) return std::nullopt;
+  Eigen::Array3f through = Eigen::Array3f::Zero();
+  visit([&](std::uint32_t k, const Eigen::Vector3f& origin, const Eigen::Vector3f& towards) {
+    if (blocked[k] == 0)
+      through += glass_.throughVeils({origin, towards, 0.0f, std::numeric_limits<float>::infinity()});
+  });
+  return Eigen::Array3f(through / static_cast<float>(passed));
+}
+
+Eigen::Array3f SurfaceLighting::throughVeils(const Disc& disc, const Tile& tile,
+                                             const Surface& surface) const {
   const Eigen::Vector3f& towards = disc.visibility.towards();
   Eigen::Array3f through = Eigen::Array3f::Zero();
   const std::uint32_t rays = glass_.raysOf(surface.samples);
@@ -71,7 +129,17 @@ Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::
     const Eigen::Vector3f origin = rayStart(tile, surface.first_sample + k, surface, towards);
     through += glass_.throughVeils({origin, towards, 0.0f, std::numeric_limits<float>::infinity()});
   }
-  return share * through / static_cast<float>(rays);
+  return through / static_cast<float>(rays);
+}
+
+Eigen::Array3f SurfaceLighting::throughAtEdge(const Disc& disc, const Tile& tile,
+                                              const Surface& surface) const {
+  // In radii of the disc: shares are those of pixels around, too, from which some of it is seen.
+  for (const float reach : {0.7f, 3.0f, 8.0f, 20.0f, 50.0f}) {
+    const std::optional<Eigen::Array3f> through = throughAround(disc, reach, tile, surface);
+    if (through) return *through;
+  }
+  return throughVeils(disc, tile, surface);
 }
 
 void SurfaceLighting::addDisc(const Disc& disc, const Tile& tile, ByDiscs* by) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "light/picture/ambient.h"
@@ -58,6 +59,12 @@ class SurfaceLighting {
     const std::vector<float>& shares;  ///< of a tile's surfaces; empty: it gives too little
   };
   Eigen::Array3f ofDisc(const Disc& disc, const Tile& tile, std::size_t index) const;
+  /// Share of the light from the disc's middle that veils let through.
+  Eigen::Array3f throughVeils(const Disc& disc, const Tile& tile, const Surface& surface) const;
+  /// The same where some of the disc is hidden, as its middle may be.
+  Eigen::Array3f throughAtEdge(const Disc& disc, const Tile& tile, const Surface& surface) const;
+  std::optional<Eigen::Array3f> throughAround(const Disc& disc, float reach, const Tile& tile,
+                                              const Surface& surface) const;
   /// Of each of a tile's surfaces by sun and moon.
   struct ByDiscs {
     std::vector<Eigen::Array3f> luminances;
@@ -74,7 +81,9 @@ class SurfaceLighting {
   DiscVisibility sun_, moon_;
   std::unique_ptr<const Glints> sun_glints_, moon_glints_;  ///< null: none
   LampLight lamps_;
+  const Visibility& visibility_;
   GlassSheets glass_;
+  bool dark_veils_;
   bool broken_cloud_;  ///< whether discs shine more on some places than on others
 };
 
