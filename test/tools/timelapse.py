@@ -273,14 +273,15 @@ class Timelapse(unittest.TestCase):
         # Polished floor, mirror, window pane, a panel in the ceiling and a lamp on the table.
         views = ["--view", "2.7,-2.2,1.6,140,-5", "--view", "-2.5,-2,1.6,40,-5"]
         done = run("compare_light", "--out", self.path("room"), "--world", INTERIOR, *views, "--sun", "120,-20", "--lamps",
-                   "on", "--size", "160x120", "--every", "4", "--samples", "512")
+                   "on", "--size", "160x120", "--every", "4", "--samples", "2048")
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(os.path.join(self.path("room"), "table.csv"), newline="") as table:
             rows = [row for row in csv.DictReader(table) if row["view"] != "all"]
         self.assertEqual(len(rows), 2)
         for row in rows:
-            # Measured 7 and 8, 4 and 5 %, with 4 to 6 % of noise in the reference; with what surfaces pass on left out,
-            # most of the walls were dark. No bound for the sum: the lamp in the mirror is a pixel or two of most of it.
+            # Measured 7 and 7, 5 and 6 %, with 3 % of noise in the reference, which also has the lamp's light that the
+            # mirror throws on the walls; with what surfaces pass on left out, most of the walls were dark. No bound for
+            # the sum: the lamp in the mirror is a pixel or two of most of it.
             self.assertLess(float(row["mean_pct"]), 11.0)
             self.assertLess(float(row["median_pct"]), 7.0)
 
