@@ -154,9 +154,10 @@ class LampsOnTriangles {
     std::array<Sum, 3> sums;
     float left = 0.0f, found = 0.0f;  // lx: of lamps to come, at most; where least has arrived
     for (const AtMost& one : of_leaf_) left += one.first;
-    for (const auto& [high, lamp] : of_leaf_) {
+    for (const AtMost& one : of_leaf_) {
       if (left < kLeftOut * found) break;
-      left -= high;
+      left -= one.first;
+      const std::uint32_t lamp = one.second;
       const float away = std::max(box.exteriorDistance(lamps_[lamp].position()), lamps_[lamp].radius_m());
       const float longest = box.diagonal().norm();
       // Of each corner's part, half as wide as the leaf.

@@ -98,7 +98,7 @@ DiscInView::Grid DiscInView::gridOf(const Pixel& pixel) const {
   const auto angle = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0));
   };
-  const auto& [middle, right, down] = pixel;
+  const Eigen::Vector3d &middle = pixel.middle, &right = pixel.right, &down = pixel.down;
   double reach = 0.0;
   for (const Eigen::Vector3d& corner : {Eigen::Vector3d(right + down), Eigen::Vector3d(right - down)})
     reach = std::max({reach, angle(middle, middle + 0.5 * corner), angle(middle, middle - 0.5 * corner)});
