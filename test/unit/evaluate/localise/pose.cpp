@@ -26,10 +26,14 @@ std::vector<Sighting> sightings(const Eigen::Isometry3d& pose, std::size_t count
   cv::RNG random(seed);
   std::vector<Sighting> all;
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d pixel(random.uniform(0.0, 639.0), random.uniform(0.0, 479.0));
+    // Each number in a statement of its own: compilers differ in the order of arguments.
+    Eigen::Vector2d pixel;
+    pixel.y() = random.uniform(0.0, 479.0);
+    pixel.x() = random.uniform(0.0, 639.0);
     const Eigen::Vector3d point = pose * (random.uniform(2.0, 30.0) * kCamera.unproject(pixel));
-    Eigen::Vector2d seen(pixel.x() + random.gaussian(noise.pixels),
-                         pixel.y() + random.gaussian(noise.pixels));
+    Eigen::Vector2d seen = pixel;
+    seen.y() += random.gaussian(noise.pixels);
+    seen.x() += random.gaussian(noise.pixels);
     if (random.uniform(0.0, 1.0) < noise.wrong)
       seen = {random.uniform(0.0, 639.0), random.uniform(0.0, 479.0)};
     all.push_back({point, seen});
