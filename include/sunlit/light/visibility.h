@@ -96,6 +96,8 @@ class Visibility {
   bool hasGlass() const;
   /// Whether anything blends evenly, and whether a veil does.
   bool hasEvenBlends() const;
+  /// Whether any of these, or any glass, takes more than a fifth of the light in some channel.
+  bool hasDarkVeils() const;
   bool blendsEvenly(const Hit& veil) const;
 
  private:

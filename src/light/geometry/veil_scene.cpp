@@ -37,6 +37,14 @@ bool mayMeet(const Eigen::AlignedBox3f& box, const Visibility::Sight& sight) {
   return near <= far;
 }
 
+/// Whether a veil takes so much of the light that pixels at the edge of a patch of it show whose rays were
+/// asked.
+bool isDark(const scene::Material& material, bool blends_evenly) {
+  constexpr float kDim = 0.8f;
+  if (isGlass(material)) return material.glass * material.base_color.value.minCoeff() < kDim;
+  return blends_evenly && 1.0f - material.alpha < kDim;
+}
+
 }  // namespace
 
 VeilScene::VeilScene(const Geometry& geometry, RTCDevice device) : geometry_(geometry) {
@@ -53,6 +61,7 @@ VeilScene::VeilScene(const Geometry& geometry, RTCDevice device) : geometry_(geo
     even_[m] = light::blendsEvenly(*geometry.scene, materials[m]);
     has_even_ = has_even_ || even_[m];
     has_glass_ = has_glass_ || isGlass(materials[m]);
+    has_dark_ = has_dark_ || isDark(materials[m], even_[m]);
   }
   if (triangles_.empty()) return;
   box_ = boxOf(geometry, triangles_);

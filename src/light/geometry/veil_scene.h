@@ -18,6 +18,8 @@ class VeilScene {
   bool any() const { return !triangles_.empty(); }
   bool hasGlass() const { return has_glass_; }
   bool hasEvenBlends() const { return has_even_; }
+  /// See Visibility.
+  bool hasDark() const { return has_dark_; }
   /// Of a triangle of `geometry`: see light::blendsEvenly().
   bool blendsEvenly(std::uint32_t triangle) const {
     return even_[static_cast<std::size_t>(geometry_.materials[triangle])];
@@ -31,7 +33,7 @@ class VeilScene {
   std::vector<std::uint32_t> triangles_;
   Eigen::AlignedBox3f box_;  ///< about all of them, and a little more
   std::vector<bool> even_;   ///< of each material that is used: whether it blends evenly
-  bool has_glass_ = false, has_even_ = false;
+  bool has_glass_ = false, has_even_ = false, has_dark_ = false;
   ScenePointer scene_;  ///< null: there are none
 };
 

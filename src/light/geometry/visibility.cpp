@@ -364,6 +364,10 @@ bool Visibility::hasEvenBlends() const {
          (fixed_ && fixed_->implementation_->veils().hasEvenBlends());
 }
 
+bool Visibility::hasDarkVeils() const {
+  return implementation_->veils().hasDark() || (fixed_ && fixed_->implementation_->veils().hasDark());
+}
+
 bool Visibility::blendsEvenly(const Hit& veil) const {
   const std::uint32_t fixed = fixedTriangles();
   if (veil.triangle >= fixed) return implementation_->veils().blendsEvenly(veil.triangle - fixed);

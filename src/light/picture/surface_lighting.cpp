@@ -41,17 +41,6 @@ std::unique_ptr<const Glints> glintsOf(const sky::DiscLight& disc, const Surface
   return Glints::of(disc, leastDisc_lx(light.day), {subject.ready, subject.visibility, *light.glint_nodes});
 }
 
-/// Whether anything that light comes through takes so much of it that a pixel at the edge of a patch of light
-/// shows whether that was asked of a ray of the disc which comes through, or of one which is stopped.
-bool hasDarkVeils(const scene::Scene& scene) {
-  constexpr float kClear = 0.8f;
-  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& material) {
-    const float clear =
-        isGlass(material) ? material.glass * material.base_color.value.minCoeff() : 1.0f - material.alpha;
-    return seenThrough(material) && clear < kClear;
-  });
-}
-
 }  // namespace
 
 SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& light)
@@ -73,7 +62,6 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
                             subject.in_mirrors ? Onlooker::kMirrors : Onlooker::kCamera)}),
       visibility_(subject.visibility),
       glass_(subject.visibility),
-      dark_veils_(hasDarkVeils(subject.scene)),
       broken_cloud_(light.day.hasBrokenCloud()) {}
 
 Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::size_t index) const {
@@ -82,8 +70,9 @@ Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::
   const Surface& surface = tile.surfaces[index];
   if (broken_cloud_) share *= light_.day.throughCloud(disc.light, surface.position);
   if (!glass_.anyVeils()) return Eigen::Array3f::Constant(share);
-  return share * (dark_veils_ && disc.shares[index] < kWhole ? throughAtEdge(disc, tile, surface)
-                                                             : throughVeils(disc, tile, surface));
+  return share * (visibility_.hasDarkVeils() && disc.shares[index] < kWhole
+                      ? throughAtEdge(disc, tile, surface)
+                      : throughVeils(disc, tile, surface));
 }
 
 /// By the rays that nothing stops, of four around the disc's middle and each of the surface's samples; none:

@@ -83,7 +83,6 @@ class SurfaceLighting {
   LampLight lamps_;
   const Visibility& visibility_;
   GlassSheets glass_;
-  bool dark_veils_;
   bool broken_cloud_;  ///< whether discs shine more on some places than on others
 };
 

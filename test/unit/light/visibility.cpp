@@ -200,6 +200,34 @@ TEST(Visibility, LetsRaysPassWhatBlendsIfSoWished) {
   EXPECT_NEAR(blending, 100, 4 * 7.1);
 }
 
+TEST(Veils, AreDarkByWhatTheyTakeOfRaysThatPass) {
+  scene::Scene scene;
+  scene.materials = {plain()};
+  scene.meshes = {sheet(0, 0.0f, 0.0f, 2.0f)};
+  scene::Material& material = scene.materials[0];
+  const auto dark = [&scene] { return Visibility(geometryOf(scene)).hasDarkVeils(); };
+  EXPECT_FALSE(dark());
+  material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+  material.glass = 1.0f;
+  EXPECT_FALSE(dark());
+  material.base_color = LinearRgb(1.0f, 0.5f, 1.0f);
+  EXPECT_TRUE(dark());
+  material.glass = 0.0f;
+  material.alpha_mode = scene::AlphaMode::kBlend;
+  material.alpha = 0.1f;
+  EXPECT_FALSE(dark());
+  material.alpha = 1.0f;
+  EXPECT_TRUE(dark());
+  // Rays pass what is cut out by its texture, or are stopped, and none is dimmed.
+  scene::Texture leaf;
+  leaf.width = 2;
+  leaf.height = 1;
+  leaf.rgba.own() = {255, 255, 255, 255, 255, 255, 255, 0};
+  scene.textures = {leaf};
+  material.base_texture = 0;
+  EXPECT_FALSE(dark());
+}
+
 TEST(Veils, AreMetFromWhereverRaysCome) {
   // A level and an upright pane, far from each other.
   scene::Scene scene;

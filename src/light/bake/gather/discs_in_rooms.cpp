@@ -228,8 +228,7 @@ void DiscsInRooms::startFromPatches(const sky::DiscLight& disc, const ThroughClo
   }
   const Coefficients& mirrored = data_.rooms.mirrored;
   tbb::parallel_for(std::size_t{0}, mirrored_.size(), [&](std::size_t room) {
-    const PackedTint tint =
-        data_.rooms.mirrored_tints.empty() ? PackedTint() : data_.rooms.mirrored_tints[room];
+    const PackedTint tint = tintOf(data_.rooms.mirrored_tints, room);
     mirrored_[room] += tint.times(light.times(mirrored.row(room)) *
                                   (mirrored.scales[room] * through.at(data_.rooms.samples[room])));
   });

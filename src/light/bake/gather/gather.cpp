@@ -219,9 +219,10 @@ class Gatherer {
     const float scale = told > 0.0f ? kPiFloat * receiver.open() / told : 0.0f;
     for (float& value : look->row) value *= scale;
     data->direct.set(sample, look->row.data());
-    if (!data->direct_tints.empty()) data->direct_tints[sample] = PackedTint(look->open);
-    if (!exchange_.tints.empty())
+    if (!data->direct_tints.empty()) {
+      data->direct_tints[sample] = PackedTint(look->open);
       exchange_.tints[sample].assign(look->tints.begin(), look->tints.begin() + look->hit_count);
+    }
     data->above.hides[sample] = look->blocked_up * scale / kPiFloat;
     data->below.hides[sample] = look->blocked_down * scale / kPiFloat;
     SampleHits& seen = exchange_.seen[sample];

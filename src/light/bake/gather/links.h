@@ -24,7 +24,7 @@ template <typename Visit>
 void visitLinks(const BakedRooms& rooms, std::size_t room, const Visit& visit) {
   for (std::uint32_t k = rooms.first[room]; k < rooms.first[room + 1]; ++k) {
     const BakedRooms::Link link = rooms.links[k];
-    const PackedTint tint = rooms.link_tints.empty() ? PackedTint() : rooms.link_tints[k];
+    const PackedTint tint = tintOf(rooms.link_tints, k);
     visit(SampleSeen{link.sample(), rooms.scales[room] * BakedRooms::weightOf(link), tint},
           k < rooms.below[room]);
   }

@@ -54,11 +54,11 @@ bool seesMany(const SampleHits& seen, const std::vector<std::uint8_t>& others, f
 /// What one room sees.
 struct Packed {
   std::vector<BakedRooms::Link> links;
-  std::vector<PackedTint> tints;  ///< of each
+  std::vector<PackedTint> tints;  ///< of each, where they are kept
   std::uint32_t below;            ///< the first that is seen below the horizon
   float scale;                    ///< of their weights
 };
-Packed pack(const std::array<std::vector<SampleSeen>, 2>& seen) {
+Packed pack(const std::array<std::vector<SampleSeen>, 2>& seen, bool tinted) {
   Packed result{};
   float most = 1e-12f, all = 0.0f, packed = 0.0f;
   for (const auto& half : seen)
@@ -68,7 +68,7 @@ Packed pack(const std::array<std::vector<SampleSeen>, 2>& seen) {
     for (const SampleSeen& other : half) {
       const auto root = static_cast<std::uint32_t>(std::lround(255.0f * std::sqrt(other.weight / most)));
       result.links.push_back(BakedRooms::Link::of(other.sample, std::max(root, 1u)));
-      result.tints.push_back(other.tint);
+      if (tinted) result.tints.push_back(other.tint);
       all += other.weight;
       packed += BakedRooms::weightOf(result.links.back());
     }
@@ -354,8 +354,7 @@ void RoomBaker::look(TransportData* data) const {
     for (std::size_t i = 0; i < views.size(); ++i) {
       const std::uint32_t sample = rooms.samples[first + i];
       views[i].finish(samples_.receivers[sample], sample, data);
-      packed[first + i] = pack(views[i].seen);
-      if (!tinted) packed[first + i].tints = {};
+      packed[first + i] = pack(views[i].seen, tinted);
     }
   });
   std::size_t sum = 0;

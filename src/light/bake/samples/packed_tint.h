@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 
 namespace sunlit::light {
@@ -30,5 +31,11 @@ class PackedTint {
 
   std::uint8_t red_ = kWhiteRed, blue_ = kWhiteBlue;  ///< 0: none of it
 };
+
+/// One of `tints`; white where there are none, as in all that has no tinted glass.
+template <typename Tints>
+PackedTint tintOf(const Tints& tints, std::size_t number) {
+  return tints.empty() ? PackedTint() : tints[number];
+}
 
 }  // namespace sunlit::light

@@ -121,9 +121,7 @@ struct TransportData {
   BakedRooms rooms;
 
   std::size_t sampleCount() const { return direct.scales.size(); }
-  PackedTint directTint(std::size_t sample) const {
-    return direct_tints.empty() ? PackedTint() : direct_tints[sample];
-  }
+  PackedTint directTint(std::size_t sample) const { return tintOf(direct_tints, sample); }
   /// Where each sample lies, about: at one of the nodes that have its light. Found when first asked for.
   const std::vector<Eigen::Vector3f>& places(const Geometry& geometry) const;
   /// Whoever looked at all of it has done so; pictures look at a few places of it.

@@ -17,8 +17,8 @@ Mirror findView(const TransportData& data, const scene::Material& material, cons
                 const WholeOutlook& outlook) {
   const bool sheet = material.transmission > 0.0f;
   const OpenPatches open = openPatches(data, surface, outlook, material);
-  if (surface.roughness >= kLeastRough) return roughMirror(surface, material, open, outlook.sheet.sky.known);
-  return smoothMirror(surface, surface.roughness, sheet, open);
+  if (surface.roughness < kLeastRough) return smoothMirror(surface, surface.roughness, sheet, open);
+  return roughMirror(surface, material, open, outlook.sheet.sky.known);
 }
 
 /// What surfaces of a tile mirror, found once for all that are alike.
