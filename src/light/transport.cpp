@@ -11,6 +11,7 @@
 #include "light/bake/gather/gather.h"
 #include "light/bake/gather/lamp_lit.h"
 #include "light/bake/gather/relight.h"
+#include "light/bake/samples/compact_sources.h"
 #include "light/bake/samples/node_lights.h"
 #include "light/bake/samples/parting_walls.h"
 #include "light/bake/samples/scene_samples.h"
@@ -22,16 +23,28 @@
 namespace sunlit::light {
 namespace {
 
-/// What shines by itself, what that lights brightly, and what all lamps do.
-AreaLights brightIn(const BakeScene& scene, const AreaLights& shining,
+/// Of the samples' usual distance, 3 m, or less in small worlds: as high as lamps hang above what they light.
+constexpr float kLampHeights = 12.0f;
+
+/// What the bake has to look for: `pieces` that shine by themselves, what these and compact sources light
+/// brightly, and what all lamps do.
+AreaLights brightIn(const BakeScene& scene, const ShiningLights& shining,
                     std::vector<AreaLights::Piece> pieces) {
   const std::vector<scene::Lamp>& lamps = scene.geometry.scene->lamps;
-  std::vector<LampBeam> beams;
+  std::vector<LampBeam> beams = shining.compact;
   for (const LampSet& set : lampSets(lamps))
     for (const scene::Lamp& lamp : lampsOf(set, lamps)) beams.emplace_back(lamp);
-  for (const std::vector<AreaLights::Piece>& lit : {litPieces(scene, beams), litPieces(scene, shining)})
+  for (const std::vector<AreaLights::Piece>& lit : {litPieces(scene, beams), litPieces(scene, shining.baked)})
     pieces.insert(pieces.end(), lit.begin(), lit.end());
   return AreaLights(scene.rays, std::move(pieces));
+}
+
+/// Null: there are none.
+std::shared_ptr<const std::vector<CompactSource>> sourcesOf(const TransportData& data) {
+  std::vector<CompactSource> sources;
+  for (const KeptSource& one : data.compact_sources) sources.push_back(sourceOf(one));
+  if (sources.empty()) return nullptr;
+  return std::make_shared<const std::vector<CompactSource>>(std::move(sources));
 }
 
 }  // namespace
@@ -64,8 +77,11 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   const RefineLimits limits{static_cast<float>(finestOf(options, *geometry)),
                             static_cast<std::size_t>(options.samples)};
   const BakeScene scene{*geometry, rays, traits};
-  const std::vector<AreaLights::Piece> pieces = shiningPieces(*geometry, traits);
-  const AreaLights shining(rays, pieces);
+  const ShiningParts parts = partedBySize(shiningPieces(*geometry, traits),
+                                          kLampHeights * static_cast<float>(finestOf({}, *geometry)));
+  const AreaLights baked(rays, parts.others);
+  const std::vector<LampBeam> compact(parts.compact.begin(), parts.compact.end());
+  const ShiningLights shining{baked, compact};
   constexpr double kLeaves = 0.2, kSampled = 0.4;
   auto data = std::make_unique<TransportData>();
   SceneSamples samples;
@@ -80,13 +96,14 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   tbb::parallel_invoke(
       [&] { data->leaves = leafOpenness(geometry, traits, [&](double share) { note(share, &leaves); }); },
       [&] {
-        samples = sampleScene(scene, brightIn(scene, shining, pieces), limits,
+        samples = sampleScene(scene, brightIn(scene, shining, parts.others), limits,
                               [&](double share) { note(share, &sampled); });
       });
   const GatherOptions gather{options.rays_per_patch, options.bounces, shining,
                              [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
   samples.mesh.drop(gatherLight(scene, samples, gather, data.get()), PartingWalls(scene, samples));
   data->mesh = std::move(samples.mesh);
+  for (const CompactSource& source : parts.compact) data->compact_sources.push_back(kept(source));
   return std::make_shared<const Transport>(options, std::move(data));
 }
 
@@ -94,7 +111,8 @@ Transport::Transport(const TransportOptions& options, std::unique_ptr<const Tran
     : options_(options),
       data_(std::move(data)),
       node_open_(std::make_shared<const std::vector<float>>(openSky(*data_))),
-      glint_nodes_(light::glintNodes(*data_)) {
+      glint_nodes_(light::glintNodes(*data_)),
+      compact_sources_(sourcesOf(*data_)) {
   data_->letGo();
 }
 Transport::~Transport() = default;
@@ -111,6 +129,7 @@ Illumination Transport::illumination(const sky::Daylight& day, const std::vector
   Illumination light(day);
   light.nodes = std::make_shared<const NodeLights>(relight(day, lamp_shares, visibility));
   light.node_open = node_open_;
+  light.compact_sources = compact_sources_;
   if (visibility) light.glint_nodes = glint_nodes_;
   light.sky_sectors = std::make_shared<const SkySectors>(day);
   light.mirror_sky = std::make_shared<const MirrorSky>(day);

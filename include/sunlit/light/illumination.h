@@ -56,7 +56,11 @@ struct Illumination {
   std::shared_ptr<const std::vector<scene::Lamp>> lamps;
   /// That burn, of bodies, in their frames, for PreparedPicture; null: none.
   std::shared_ptr<const std::vector<BodyLamp>> body_lamps;
-  /// What surfaces pass on of these, for the pose that a renderer looks at, which sets it; null: nothing.
+  /// Of surfaces that shine by themselves those that light straight, as lamps do, since `nodes` are without
+  /// it; null: none.
+  std::shared_ptr<const std::vector<CompactSource>> compact_sources;
+  /// What surfaces pass on of lamps of bodies, for the pose that a renderer looks at, which sets it; null:
+  /// nothing.
   std::shared_ptr<const std::vector<BouncedLight>> bounced;
 };
 

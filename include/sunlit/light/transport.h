@@ -103,10 +103,10 @@ class Transport {
   Transport(const TransportOptions& options, std::unique_ptr<const TransportData> data);
   ~Transport();
 
-  /// The light of each node. Of lamps that stand in the scene, what surfaces pass on: a share for each set of
-  /// them that was baked together, as illumination(world, …) finds them. `visibility`, of the scene, finds
-  /// where sun and moon shine into rooms, streets and tunnels; without it their light is spread over the
-  /// patches of the sky around them before it is passed on.
+  /// The light of each node. Of lamps that stand in the scene, and of compactSources(), what surfaces pass on:
+  /// a share for each set of them that was baked together, as illumination(world, …) finds them.
+  /// `visibility`, of the scene, finds where sun and moon shine into rooms, streets and tunnels; without it
+  /// their light is spread over the patches of the sky around them before it is passed on.
   std::vector<NodeLight> relight(const sky::Daylight& day, const std::vector<float>& lamp_shares = {},
                                  const Visibility* visibility = nullptr) const;
   /// The same with all else that `day` means at the nodes: Illumination but for its bodies and lamps.
@@ -119,6 +119,9 @@ class Transport {
   /// Where relight() leaves out what polished floors throw, if it knows where discs shine; null: nowhere.
   const std::shared_ptr<const GlintNodes>& glintNodes() const { return glint_nodes_; }
 
+  /// Illumination::compact_sources.
+  const std::shared_ptr<const std::vector<CompactSource>>& compactSources() const { return compact_sources_; }
+
   /// All that the bake keeps, for those who light by it.
   const TransportData& data() const { return *data_; }
   const TransportOptions& options() const { return options_; }
@@ -129,7 +132,8 @@ class Transport {
   TransportOptions options_;
   std::unique_ptr<const TransportData> data_;
   std::shared_ptr<const std::vector<float>> node_open_;
-  std::shared_ptr<const GlintNodes> glint_nodes_;  ///< null: none
+  std::shared_ptr<const GlintNodes> glint_nodes_;                  ///< null: none
+  std::shared_ptr<const std::vector<CompactSource>> compact_sources_;  ///< null: none
 };
 
 }  // namespace sunlit::light

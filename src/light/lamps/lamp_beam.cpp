@@ -1,5 +1,6 @@
 #include "light/lamps/lamp_beam.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,6 +36,17 @@ scene::Lamp lampOf(const BouncedLight& light) {
   lamp.outer_rad = 0.5f * kPiFloat;
   lamp.exponent = 1.0f;
   lamp.radius_m = std::clamp(softened_m, kLeastBall_m, kMostBall_m);
+  return lamp;
+}
+
+scene::Lamp lampOf(const CompactSource& source, bool flat) {
+  scene::Lamp lamp =
+      flat ? lampOf(BouncedLight{source.position, source.normal, source.radius_m, source.intensity})
+           : scene::Lamp();
+  lamp.position = source.position;
+  lamp.intensity = LinearRgb(source.intensity);
+  lamp.radius_m = flat ? 0.0f : source.radius_m;
+  lamp.housing_m = flat ? 0.0f : source.reach_m;
   return lamp;
 }
 
@@ -87,6 +99,22 @@ LampBeam::LampBeam(const BouncedLight& light) : LampBeam(lampOf(light)) {
   bounced_ = true;
 }
 
+LampBeam::LampBeam(const CompactSource& source) : LampBeam(lampOf(source, !source.normal.isZero())) {
+  shown_radius_m_ = source.radius_m;
+  flat_ = !source.normal.isZero();
+  shaped_ = !flat_;
+  if (flat_) {
+    constexpr float kClear_m = 1e-3f;
+    half_ = source.half;
+    round_ = source.round;
+    ball_ = source.position + (source.uneven_m + kClear_m) * source.normal;  // rays end before it
+  } else {
+    shape_ = source.shape;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(shape_, Eigen::EigenvaluesOnly);
+    least_shape_ = std::sqrt(std::max(axes.eigenvalues()[0], 0.0f));
+  }
+}
+
 LampBeam::Bounds LampBeam::within(const Eigen::AlignedBox3f& box) const {
   const Eigen::Vector3f middle = box.center() - lamp_.position;
   const float radius = 0.5f * box.diagonal().norm(), distance = middle.norm();
@@ -108,7 +136,7 @@ LampBeam::Bounds LampBeam::within(const Eigen::AlignedBox3f& box) const {
     most = std::min(angle + spread, kPiFloat);
   }
   const float low = farthest > lamp_.range_m ? 0.0f : attenuation(farthest) * cone(std::cos(most));
-  return {brightest_ * low, brightest_ * attenuation(nearest) * cone(std::cos(least))};
+  return {brightest_ * least_shape_ * low, brightest_ * attenuation(nearest) * cone(std::cos(least))};
 }
 
 LampBeam::Stretch LampBeam::withinCone(const Eigen::Vector3f& start, const Eigen::Vector3f& towards) const {
@@ -143,6 +171,9 @@ void LampBeam::shares(const Points& points, float* shares) const {
             per_range_, least_m_, kNearest_m, lamp_.isSpot() ? cos_outer_ : -3.0f,
             lamp_.isSpot() ? per_cosine_ : 1.0f, lamp_.exponent == kSquare},
            points, shares);
+  if (!shaped_) return;
+  for (std::size_t i = 0; i < points.count; ++i)
+    shares[i] *= shape(Eigen::Vector3f(points.x[i], points.y[i], points.z[i]) - lamp_.position);
 }
 
 }  // namespace sunlit::light

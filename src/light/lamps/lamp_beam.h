@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "sunlit/light/lamps.h"
+#include "sunlit/quantity/angle.h"
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::light {
@@ -17,6 +18,8 @@ class LampBeam {
   explicit LampBeam(const scene::Lamp& lamp);
   /// Gives I cos / (r² / 4 + d²), the cosine that of the angle to the disc's normal, r its radius.
   explicit LampBeam(const BouncedLight& light);
+  /// The same of a flat one; of a body I / d², by its shape.
+  explicit LampBeam(const CompactSource& source);
 
   const Eigen::Vector3f& position() const { return lamp_.position; }
   /// The ball that rays look for: of a lamp about position(); of a surface it rests on that, so that rays end
@@ -25,9 +28,21 @@ class LampBeam {
   float radius_m() const { return lamp_.radius_m; }
   /// What lies nearer, such as its bulb, is part of it and hides nothing.
   float spared_m() const { return std::max(lamp_.radius_m, lamp_.housing_m); }
+  /// From ball() to a point of the unit disc across the way there, which the unit vector `towards` tells; of
+  /// a flat source to one of its own.
+  Eigen::Vector3f aside(const Eigen::Vector3f& towards, const Eigen::Vector2f& point) const {
+    if (flat_) return half_ * (round_ ? point : onSquare(point));
+    return across(towards) * (lamp_.radius_m * point);
+  }
   /// How large it shows in surfaces that mirror it.
   float shownRadius_m() const { return shown_radius_m_; }
   bool isBounced() const { return bounced_; }
+  /// Whether what mirrors by rays meets it there.
+  bool isSurface() const { return bounced_ || flat_ || shaped_; }
+  bool isFlat() const { return flat_; }
+  /// Of a flat source: CompactSource::normal, and half of the rectangle that is as large.
+  const Eigen::Vector3f& normal() const { return lamp_.direction; }
+  Eigen::Matrix<float, 3, 2> half() const { return (round_ ? std::sqrt(kPiFloat / 4.0f) : 1.0f) * half_; }
   bool isSpot() const { return lamp_.isSpot(); }
   bool castsShadows() const { return lamp_.casts_shadows; }
 
@@ -71,11 +86,29 @@ class LampBeam {
   float attenuation(float distance_m) const;
   /// By the cosine of the angle to the axis.
   float cone(float cosine) const;
+  /// The square around the unit disc, evenly, by points that fill the disc evenly (Shirley & Chiu, "A low
+  /// distortion map between disk and square", 1997, the other way).
+  static Eigen::Vector2f onSquare(const Eigen::Vector2f& disc) {
+    const bool steep = std::abs(disc.y()) > std::abs(disc.x());
+    const float longer = steep ? disc.y() : disc.x(), shorter = steep ? disc.x() : disc.y();
+    if (longer == 0.0f) return disc;
+    const float edge = std::copysign(disc.norm(), longer);
+    const float along = edge * std::atan(shorter / longer) * (4.0f / kPiFloat);
+    return steep ? Eigen::Vector2f(along, edge) : Eigen::Vector2f(edge, along);
+  }
+  /// Of a body: by the way from it, of any length.
+  float shape(const Eigen::Vector3f& away) const {
+    const float square = away.squaredNorm();
+    return square > 0.0f ? std::sqrt(std::max(away.dot(shape_ * away) / square, 0.0f)) : 1.0f;
+  }
 
   scene::Lamp lamp_;
   Eigen::Vector3f ball_;
   float shown_radius_m_;
-  bool bounced_ = false;
+  bool bounced_ = false, flat_ = false, round_ = false, shaped_ = false;
+  Eigen::Matrix<float, 3, 2> half_ = Eigen::Matrix<float, 3, 2>::Zero();  ///< and this: as of CompactSource
+  Eigen::Matrix3f shape_ = Eigen::Matrix3f::Identity();
+  float least_shape_ = 1.0f;  ///< of shape(), to any side
   float brightest_;
   float least_m_;    ///< nearer than that nothing gets brighter
   float per_range_;  ///< 1/m, of one that fades towards its range; else 0
@@ -114,7 +147,8 @@ inline float LampBeam::share(const Eigen::Vector3f& point) const {
   const Eigen::Vector3f away = point - lamp_.position;
   const float distance_m = away.norm();
   if (distance_m > lamp_.range_m) return 0.0f;
-  return attenuation(distance_m) * cone(lamp_.direction.dot(away) / std::max(distance_m, kNearest_m));
+  return (shaped_ ? shape(away) : 1.0f) * attenuation(distance_m) *
+         cone(lamp_.direction.dot(away) / std::max(distance_m, kNearest_m));
 }
 
 }  // namespace sunlit::light

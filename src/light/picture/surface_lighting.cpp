@@ -18,14 +18,10 @@ namespace {
 
 constexpr float kWhole = 0.999f;  ///< of a disc: all of it
 
-const std::vector<scene::Lamp>& lampsOf(const Illumination& light) {
-  static const std::vector<scene::Lamp> none;
-  return light.lamps ? *light.lamps : none;
-}
-
-const std::vector<BouncedLight>& bouncedOf(const Illumination& light) {
-  static const std::vector<BouncedLight> none;
-  return light.bounced ? *light.bounced : none;
+template <typename Light>
+const std::vector<Light>& allOf(const std::shared_ptr<const std::vector<Light>>& lights) {
+  static const std::vector<Light> none;
+  return lights ? *lights : none;
 }
 
 std::vector<bool> glowing(const SurfaceLighting::Subject& subject, const std::vector<scene::Lamp>& lamps) {
@@ -49,14 +45,14 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
       table_(subject.ready.table),
       scene_(subject.scene),
       light_(light),
-      glows_(glowing(subject, lampsOf(light))),
+      glows_(glowing(subject, allOf(light.lamps))),
       sun_(DiscVisibility::straight(light.day.sun(), leastDisc_lx(light.day), subject.visibility),
            {surfaces_, table_}),
       moon_(DiscVisibility::straight(light.day.moon(), leastDisc_lx(light.day), subject.visibility),
             {surfaces_, table_}),
       sun_glints_(glintsOf(light.day.sun(), subject, light)),
       moon_glints_(glintsOf(light.day.moon(), subject, light)),
-      lamps_({lampsOf(light), bouncedOf(light)},
+      lamps_({allOf(light.lamps), allOf(light.bounced), allOf(light.compact_sources)},
              {surfaces_, scene_, subject.visibility,
               mirrorsByRays(subject.visibility.fixedGeometry(),
                             subject.in_mirrors ? Onlooker::kMirrors : Onlooker::kCamera)}),

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "light/picture/bodies/lamps_on_places.h"
 #include "light/shading/shading.h"
 #include "paper_scene.h"
 #include "sunlit/light/transport.h"
@@ -44,14 +45,21 @@ inline Surfaces onTriangles(const World& world, const std::vector<Looked>& point
   return surfaces;
 }
 
-/// Illuminance by surfaces, lx.
+/// Illuminance by surfaces, lx: by way of others, and straight from those that shine.
 inline std::vector<double> illuminances(const World& world, const std::vector<Looked>& points,
                                         const LampOptions& options = kOn) {
   const Illumination light = illumination(world, uniformDay(0.0f), options);
   std::vector<double> values;
+  std::vector<LampBeam> beams;
+  if (light.compact_sources)
+    for (const CompactSource& source : *light.compact_sources) beams.emplace_back(source);
+  std::vector<Eigen::Array3f> all;
   for (const TileOutlooks& tile : outlooksOf(onTriangles(world, points), world))
-    for (const Outlook& outlook : tile.surfaces)
-      values.push_back(static_cast<double>(irradianceAt(outlook.light, *light.nodes)[1]));
+    for (const Outlook& outlook : tile.surfaces) all.push_back(irradianceAt(outlook.light, *light.nodes));
+  std::vector<LitPlace> places;
+  for (const Looked& point : points) places.push_back({point.position + 3e-4f * point.normal, point.normal});
+  addLampLight({beams, *world.visibility}, places, &all);
+  for (const Eigen::Array3f& lx : all) values.push_back(static_cast<double>(lx[1]));
   return values;
 }
 

@@ -25,10 +25,10 @@ struct Header {
   std::uint32_t version;
   std::uint32_t patches;
   Number key;
-  std::array<std::uint64_t, 34> counts;  ///< of the arrays, in the order of visitArrays()
+  std::array<std::uint64_t, 35> counts;  ///< of the arrays, in the order of visitArrays()
   Number checksum;                       ///< of all that follows
 };
-static_assert(sizeof(Header) == 320, "no padding goes to the file");
+static_assert(sizeof(Header) == 328, "no padding goes to the file");
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "light/bake/gather/lamp_bounces.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/transport_data.h"
 
@@ -14,7 +15,7 @@ using GatherProgress = std::function<void(double)>;
 struct GatherOptions {
   int rays_per_patch = 3;
   int bounces = 3;
-  const AreaLights& shining;  ///< what shines by itself
+  ShiningLights shining;
   GatherProgress progress;
 };
 

@@ -41,6 +41,13 @@ void store(const std::vector<Arrived>& arrived, BakedLamps* baked) {
   baked->first.push_back(static_cast<std::uint32_t>(baked->blocks.size()));
 }
 
+void add(const std::vector<Arrived>& more, std::vector<Arrived>* all) {
+  for (std::size_t i = 0; i < all->size(); ++i) {
+    (*all)[i].above += more[i].above;
+    (*all)[i].below += more[i].below;
+  }
+}
+
 void storeGlow(const Eigen::Array3f& light, std::size_t sample, PassedOn* part) {
   part->glows[sample] = {light[0], light[1], light[2]};
 }
@@ -121,22 +128,31 @@ std::vector<bool> LampBounces::sending() const {
   return sending;
 }
 
-void LampBounces::bakeShining(const AreaLights& shining, TransportData* data) const {
+std::vector<Arrived> LampBounces::straightAndPassedOn(const AreaLights& shining) const {
   const std::size_t count = samples_.receivers.size();
   const std::vector<bool> sends = sending();
-  std::vector<Arrived> straight(count);
+  std::vector<Arrived> all(count);
   StraightLight lit(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     const AreaLights::Light light = shining.at(samples_.receivers[i], i);
-    straight[i] = {light.above, light.below};
-    lit.direct[i] = straight[i].all();
+    all[i] = {light.above, light.below};
+    lit.direct[i] = all[i].all();
     lit.lamp_m[i] = light.distance_m;
     if (sends[i]) lit.looked_for[i] = lookedFor(light.distance_m, kFarthestByShining_m) * lit.direct[i];
   });
-  const std::vector<Arrived> bounced = passedOn(lit, litPieces(scene_, shining));
-  for (std::size_t i = 0; i < count; ++i) {
-    storeGlow(straight[i].above + bounced[i].above, i, &data->above);
-    storeGlow(straight[i].below + bounced[i].below, i, &data->below);
+  add(passedOn(lit, litPieces(scene_, shining)), &all);
+  return all;
+}
+
+void LampBounces::bakeShining(const ShiningLights& shining, TransportData* data) const {
+  std::vector<Arrived> all(samples_.receivers.size());
+  if (shining.baked.any()) all = straightAndPassedOn(shining.baked);
+  if (!shining.compact.empty())
+    add(passedOn(lampsOnSamples(scene_, samples_, shining.compact), litPieces(scene_, shining.compact)),
+        &all);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    storeGlow(all[i].above, i, &data->above);
+    storeGlow(all[i].below, i, &data->below);
   }
 }
 

@@ -4,8 +4,17 @@
 #include "light/bake/gather/exchange.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/transport_data.h"
+#include "light/lamps/lamp_beam.h"
 
 namespace sunlit::light {
+
+/// What shines by itself: what is baked, and the compact sources, whose light straight is that of pictures.
+struct ShiningLights {
+  const AreaLights& baked;
+  const std::vector<LampBeam>& compact;
+
+  bool any() const { return baked.any() || !compact.empty(); }
+};
 
 class LampBounces {
  public:
@@ -16,14 +25,16 @@ class LampBounces {
   /// Of each of the scene's lampSets(). Parallel; the same bits for any number of threads.
   BakedLamps bake() const;
 
-  /// Sets PassedOn::glows of both parts: of what shines, straight and by way of surfaces. Likewise.
-  void bakeShining(const AreaLights& shining, TransportData* data) const;
+  /// Sets PassedOn::glows of both parts: of what shines by way of surfaces, and of what is baked straight,
+  /// too. Likewise.
+  void bakeShining(const ShiningLights& shining, TransportData* data) const;
 
  private:
   std::vector<Arrived> passedOn(const StraightLight& lamps, std::vector<AreaLights::Piece> lit) const;
   std::vector<Arrived> lookFor(const std::vector<AreaLights::Piece>& pieces) const;
   void addBounced(const std::vector<Arrived>& has, std::vector<AreaLights::Piece>* lit) const;
   std::vector<bool> sending() const;
+  std::vector<Arrived> straightAndPassedOn(const AreaLights& shining) const;
 
   const BakeScene& scene_;
   const SceneSamples& samples_;

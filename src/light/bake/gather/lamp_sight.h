@@ -3,12 +3,17 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 
 #include "light/bake/samples/bake_rays.h"
 #include "light/bake/samples/probe.h"
 #include "light/lamps/lamp_beam.h"
 #include "sunlit/light/surfaces.h"
+#include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
 
@@ -31,10 +36,24 @@ struct LampSight {
   Eigen::Array3f light;  ///< illuminance if nothing hides the lamp, lx
 };
 
+/// A point of the unit disc, by chance, but the same for equal places: which of a surface that shines a place
+/// looks at, since some of it may be hidden from all.
+inline Eigen::Vector2f anyOfDisc(const Eigen::Vector3f& place) {
+  std::uint64_t key = 0;
+  for (const float coordinate : place) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &coordinate, sizeof bits);
+    key = scrambled(key ^ bits);
+  }
+  const float radius = std::sqrt(uniform(key, 0)), turn = 2.0f * kPiFloat * uniform(key, 1);
+  return radius * Eigen::Vector2f(std::cos(turn), std::sin(turn));
+}
+
 /// None where the point turns away from the lamp.
 inline std::optional<LampSight> lampSight(const LampBeam& lamp, const LitPoint& point) {
-  const Eigen::Vector3f way = lamp.position() - point.position;
+  Eigen::Vector3f way = lamp.ball() - point.position;
   const float distance_m = way.norm();
+  if (lamp.isSurface()) way += lamp.aside(way / std::max(distance_m, 1e-6f), anyOfDisc(point.position));
   const bool before = point.face.dot(way) > 0.0f;
   if (!before && !(point.through > 0.0f)) return std::nullopt;
   const float cosine = point.shadingNormal().dot(way) / std::max(distance_m, 1e-6f);

@@ -39,6 +39,7 @@ void visitArrays(Data& data, const Visit& visit) {
   visit(data.rooms.sources);
   visit(data.rooms.points);
   visit(data.rooms.glossy);
+  visit(data.compact_sources);
 }
 
 }  // namespace sunlit::light

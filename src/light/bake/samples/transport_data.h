@@ -108,6 +108,9 @@ struct BakedRooms {
   image::KeptArray<Glossy> glossy;  ///< in rising order of rooms
 };
 
+/// The numbers of a CompactSource, member by member.
+using KeptSource = std::array<float, 28>;
+
 struct TransportData {
   LightMesh mesh;
   Coefficients direct;  ///< straight from the sky
@@ -119,6 +122,8 @@ struct TransportData {
   LeafOpenness leaves;
   BakedLamps lamps;
   BakedRooms rooms;
+  /// What shines and lights straight in pictures: the light of samples is without that.
+  image::KeptArray<KeptSource> compact_sources;
 
   std::size_t sampleCount() const { return direct.scales.size(); }
   PackedTint directTint(std::size_t sample) const { return tintOf(direct_tints, sample); }

@@ -28,9 +28,10 @@ struct Met {
   std::uint32_t body;
   std::uint32_t direction;
   Eigen::Array3f reflectance;
-  Eigen::Array3f emission;  ///< luminance of its own, cd/m²; 0 of lamps' glass: the lamps are its light
-  Eigen::Vector3f normal;   ///< on the side that was met
-  Eigen::Vector3f origin;   ///< of shadow rays: clear of the surface
+  Eigen::Array3f emission;  ///< luminance of its own, cd/m²; 0 of lamps' glass and small sources, which light
+                            ///< straight
+  Eigen::Vector3f normal;  ///< on the side that was met
+  Eigen::Vector3f origin;  ///< of shadow rays: clear of the surface
   LightPlace light;
 };
 
@@ -59,6 +60,13 @@ class BodyLight::Implementation {
     return meanReflectance(reflectances_.at(side, barycentric)).all();
   }
   void keep(std::uint32_t body, std::uint32_t direction, const Hit& hit, Views* views) const;
+  bool isOfCompactSource(const Eigen::Vector3f& position) const {
+    if (!world_.transport || !world_.transport->compactSources()) return false;
+    const std::vector<CompactSource>& sources = *world_.transport->compactSources();
+    return std::any_of(sources.begin(), sources.end(), [&](const CompactSource& source) {
+      return (position - source.position).norm() <= source.reach_m;
+    });
+  }
   static Eigen::Array3f arriving(const Met& met, const Illumination& light);
   /// Adds the light of a disc to the illuminance of each place that it reaches.
   static void addDisc(const Views& views, const sky::Daylight& day, const sky::DiscLight& disc,
@@ -97,7 +105,7 @@ void BodyLight::Implementation::keep(std::uint32_t body, std::uint32_t direction
   const scene::Material& material =
       geometry.scene->materials[static_cast<std::size_t>(geometry.materials[hit.triangle])];
   Eigen::Array3f emission = Eigen::Array3f::Zero();
-  if (material.lamp_group.empty() && (front || material.double_sided))
+  if (material.lamp_group.empty() && (front || material.double_sided) && !isOfCompactSource(position))
     emission = reflectances_.emissionAt(hit.triangle, weights);
   views->met.push_back({body, direction, reflectanceAt({hit.triangle, front}, weights), emission, normal,
                         position + clear * normal, light});
@@ -199,6 +207,8 @@ void BodyLight::Implementation::addLamps(const Views& views, const Illumination&
     for (const scene::Lamp& lamp : *light.lamps) beams.emplace_back(lamp);
   if (light.bounced)
     for (const BouncedLight& bounced : *light.bounced) beams.emplace_back(bounced);
+  if (light.compact_sources)
+    for (const CompactSource& source : *light.compact_sources) beams.emplace_back(source);
   if (beams.empty()) return;
   std::vector<LitPlace> places;
   for (const Met& met : views.met) places.push_back({met.origin, met.normal});

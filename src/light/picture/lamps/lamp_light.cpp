@@ -45,6 +45,26 @@ const PointsOfPixel& pointsOf(int x, int y) {
   return all[static_cast<std::size_t>(y % kPeriod * kPeriod + x % kPeriod)];
 }
 
+/// A penumbra is wide where so many times more of the pixels around lie in it than beside it.
+constexpr int kMixed = 3;
+
+/// Whether two surfaces lie about in one plane.
+bool isOneSurface(const Surface& a, const Surface& b) {
+  constexpr float kAlike = 0.98f, kOff = 0.1f;
+  const Eigen::Vector3f way = b.position - a.position;
+  return a.shading_normal.dot(b.shading_normal) > kAlike &&
+         std::abs(a.geometric_normal.dot(way)) <= kOff * way.norm() + a.clearance_m;
+}
+
+/// From a surface to a point of a lamp that lies `aside` of its middle. Of a flat one that the surface's
+/// plane cuts only what is before that counts: points behind it are turned over to the other side.
+Eigen::Vector3f wayTo(const LampBeam& beam, const Surface& surface, const Eigen::Vector3f& middle,
+                      const Eigen::Vector3f& aside) {
+  const auto isBefore = [&](const Eigen::Vector3f& way) { return surface.geometric_normal.dot(way) > 0.0f; };
+  const Eigen::Vector3f way = middle + aside, other = middle - aside;
+  return beam.isFlat() && !isBefore(way) && isBefore(other) ? other : way;
+}
+
 Eigen::AlignedBox3f boxOf(const Tile& tile) {
   Eigen::AlignedBox3f box;
   for (const Surface& surface : tile.surfaces) box.extend(surface.position);
@@ -114,6 +134,7 @@ class Met {
 LampLight::LampLight(const Sources& sources, const Picture& picture)
     : beams_(sources.lamps.begin(), sources.lamps.end()), picture_(picture), glass_(picture.visibility) {
   for (const BouncedLight& bounced : sources.bounced) beams_.emplace_back(bounced);
+  for (const CompactSource& source : sources.compact) beams_.emplace_back(source);
 }
 
 /// Without those, weakest first, whose sum is at most half of kLeftOut everywhere in the tile.
@@ -175,10 +196,10 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
       }
       const float per_m = 1.0f / distance_m;
       const Eigen::Vector3f aside =
-          LampBeam::across(middle * per_m) *
-          (beam.radius_m() * points[static_cast<std::size_t>((target.cast + first) % kPoints)]);
+          beam.aside(middle * per_m, points[static_cast<std::size_t>((target.cast + first) % kPoints)]);
       const float reach = 1.0f - (beam.spared_m() + surface.clearance_m) * per_m;
-      rays.add(k, rayStart(tile, at, surface, middle), reach * (middle + aside));
+      const Eigen::Vector3f way = wayTo(beam, surface, middle, aside);
+      rays.add(k, rayStart(tile, at, surface, way), reach * way);
     }
   }
   blocked.resize(rays.size());
@@ -234,6 +255,33 @@ void LampLight::findShadows(std::uint32_t lamp, const Tile& tile, std::vector<Ta
   for (const std::vector<Target*>* list : {&alone, &asked})
     for (Target* target : *list)
       target->seen = static_cast<float>(target->lit) / static_cast<float>(target->cast);
+  smoothPenumbrae(tile, asked);
+}
+
+/// In wide penumbrae rays of a pixel tell a share about, and its neighbours, whose points are turned
+/// otherwise, the rest of it.
+void LampLight::smoothPenumbrae(const Tile& tile, const std::vector<Target*>& targets) {
+  constexpr int kSide = Surfaces::kTileSize;
+  std::array<const Target*, static_cast<std::size_t>(kSide * kSide)> at{};
+  const auto isSure = [](const Target& target) { return target.at.fills && target.cast >= kFew; };
+  for (const Target* target : targets)
+    if (isSure(*target)) at[static_cast<std::size_t>(target->at.y * kSide + target->at.x)] = target;
+  for (Target* target : targets) {
+    const auto isMixed = [](const Target& one) { return one.lit > 0 && one.lit < one.cast; };
+    if (!isSure(*target) || !isMixed(*target)) continue;
+    const Surface& surface = tile.surfaces[target->surface];
+    int lit = 0, cast = 0, mixed = 0, others = 0;
+    for (int y = std::max(target->at.y - kReach, 0); y <= std::min(target->at.y + kReach, kSide - 1); ++y) {
+      for (int x = std::max(target->at.x - kReach, 0); x <= std::min(target->at.x + kReach, kSide - 1); ++x) {
+        const Target* const other = at[static_cast<std::size_t>(y * kSide + x)];
+        if (!other || !isOneSurface(surface, tile.surfaces[other->surface])) continue;
+        lit += other->lit;
+        cast += other->cast;
+        (isMixed(*other) ? mixed : others) += 1;
+      }
+    }
+    if (mixed > kMixed * others) target->seen = static_cast<float>(lit) / static_cast<float>(cast);
+  }
 }
 
 LampLight::Closeness LampLight::closenessOf(const LampBeam& beam, float share) {

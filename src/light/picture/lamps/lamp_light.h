@@ -34,6 +34,7 @@ class LampLight {
   struct Sources {
     const std::vector<scene::Lamp>& lamps;
     const std::vector<BouncedLight>& bounced;
+    const std::vector<CompactSource>& compact;
   };
   /// Keeps references to all of `picture`.
   LampLight(const Sources& sources, const Picture& picture);
@@ -80,6 +81,7 @@ class LampLight {
   };
   std::vector<OfLamp> targetsOf(const Tile& tile, const std::vector<float>& other_lx) const;
   void findShadows(std::uint32_t lamp, const Tile& tile, std::vector<Target>* targets) const;
+  static void smoothPenumbrae(const Tile& tile, const std::vector<Target*>& targets);
   void cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets) const;
 
   /// Share of a lamp's light that glass, and of one that casts shadows what blends, leave to a surface.

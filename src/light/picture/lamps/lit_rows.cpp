@@ -1,7 +1,9 @@
 #include "light/picture/lamps/lit_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "light/shading/direct_parts.h"
 #include "light/shading/ggx.h"
@@ -36,13 +38,45 @@ struct Rows {
   const float* operator[](std::size_t row) const { return values + row * stride; }
 };
 
+/// A flat source of some size: patches of it side by side, about as long as they are wide.
+struct Panel {
+  static constexpr std::size_t kMost = 16;
+  std::array<Eigen::Vector3f, kMost> middles;
+  std::size_t count;
+  float soft;  ///< m²: added to squares of distances, since a patch gives less near by than its middle would
+  Eigen::Vector3f normal;
+
+  /// `patches`: 4 or 16.
+  Panel(const LampBeam& beam, std::size_t patches) : count(patches), normal(beam.normal()) {
+    const Eigen::Matrix<float, 3, 2> half = beam.half();
+    const Eigen::Vector2f size = half.colwise().norm().transpose();
+    // Half of what is right straight before a disc of that area, where it is r² / 2; far beside it none is.
+    soft = std::max(size.prod() / (kPiFloat * static_cast<float>(count)), 1e-6f);
+    const float aspect = size.maxCoeff() / std::max(size.minCoeff(), 1e-6f);
+    std::size_t many = patches == kMost ? 4 : 2;  // along the longer side
+    for (float longest = 2.0f; many < patches && aspect > longest; longest *= 4.0f) many *= 2;
+    const std::size_t along = size.x() < size.y() ? count / many : many, across = count / along;
+    const auto place = [](std::size_t i, std::size_t all) {
+      return (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(all) - 1.0f;
+    };
+    for (std::size_t i = 0; i < count; ++i)
+      middles[i] =
+          beam.position() + half * Eigen::Vector2f(place(i % along, along), place(i / along, across));
+  }
+};
+
 struct Source {
   Eigen::Vector3f position;
   float shown_radius_m;
   float shown_at_least;  ///< by lobes: 1 of a lamp; 0 of a surface, which mirrors show by rays
   Eigen::Array3f intensity;
   float brightest;
+  const Panel* panel;  ///< null: a point but for the lobes
 };
+
+/// Of half its diagonal: within that of a flat source all of its patches count, or four of them. Light
+/// changes by less than 1 % at either.
+constexpr float kClose = 4.0f, kNear = 16.0f;
 
 /// atan(x), x ≥ 0, within 0.006.
 inline __attribute__((always_inline)) float angleOf(float x) {
@@ -54,6 +88,7 @@ inline __attribute__((always_inline)) float angleOf(float x) {
 /// How a block of surfaces sees a lamp.
 struct Seen {
   alignas(64) float lx[LitRows::kBlock];  ///< on its plane for 1 cd of intensity; < 0: on its other side
+  alignas(64) float x[LitRows::kBlock], y[LitRows::kBlock], z[LitRows::kBlock];  ///< unit, from there to it
   alignas(64) float fresnel[LitRows::kBlock], lobe[LitRows::kBlock];
 };
 
@@ -74,11 +109,11 @@ inline __attribute__((always_inline)) bool choose(const float* shares, const flo
   return any != 0;
 }
 
-/// `rows` begin with the block's.
+// Of what follows `rows` begin with the block's.
+
 inline __attribute__((always_inline)) void look(const Source& lamp, const Rows& rows, const float* shares,
                                                 Seen* __restrict seen) {
   const float lamp_x = lamp.position.x(), lamp_y = lamp.position.y(), lamp_z = lamp.position.z();
-  const float radius_m = lamp.shown_radius_m, at_least = lamp.shown_at_least;
   for (std::size_t k = 0; k < LitRows::kBlock; ++k) {
     const auto dot = [&](std::size_t row, float x, float y, float z) {
       return rows[row][k] * x + rows[row + 1][k] * y + rows[row + 2][k] * z;
@@ -86,14 +121,71 @@ inline __attribute__((always_inline)) void look(const Source& lamp, const Rows& 
     const float x = lamp_x - rows[kPosition][k], y = lamp_y - rows[kPosition + 1][k],
                 z = lamp_z - rows[kPosition + 2][k];
     const float per_m = 1.0f / std::max(std::sqrt(x * x + y * y + z * z), 1e-6f);
-    const float n_l = per_m * dot(kNormal, x, y, z), v_l = per_m * dot(kToEye, x, y, z);
-    const float n_v = rows[kNormalEye][k];
+    const bool lost = (rows[kOpaque][k] > 0.0f) & (dot(kGeometricNormal, x, y, z) <= 0.0f);
+    seen->lx[k] = lost ? 0.0f : per_m * dot(kNormal, x, y, z) * shares[k];
+    seen->x[k] = per_m * x;
+    seen->y[k] = per_m * y;
+    seen->z[k] = per_m * z;
+  }
+}
+
+/// The same of all patches of a panel; the way is that of its light in sum. Where `shares` are 0: nothing.
+inline __attribute__((always_inline)) void lookAtPanel(const Panel& panel, const Rows& rows,
+                                                       const float* shares, Seen* __restrict seen) {
+  constexpr std::size_t kBlock = LitRows::kBlock;
+  alignas(64) float front[kBlock] = {}, behind[kBlock] = {}, sum_x[kBlock] = {}, sum_y[kBlock] = {},
+                    sum_z[kBlock] = {};
+  const float out_x = panel.normal.x(), out_y = panel.normal.y(), out_z = panel.normal.z();
+  const float each = 1.0f / static_cast<float>(panel.count), soft = panel.soft;
+  for (std::size_t i = 0; i < panel.count; ++i) {
+    const float middle_x = panel.middles[i].x(), middle_y = panel.middles[i].y(),
+                middle_z = panel.middles[i].z();
+    for (std::size_t k = 0; k < kBlock; ++k) {
+      const auto dot = [&](std::size_t row, float x, float y, float z) {
+        return rows[row][k] * x + rows[row + 1][k] * y + rows[row + 2][k] * z;
+      };
+      const float x = middle_x - rows[kPosition][k], y = middle_y - rows[kPosition + 1][k],
+                  z = middle_z - rows[kPosition + 2][k];
+      const float per_square = 1.0f / (x * x + y * y + z * z + soft);
+      const float before = std::max(-(x * out_x + y * out_y + z * out_z), 0.0f);
+      const float light = before * per_square * per_square * each;  // and another 1 / m
+      const bool lost = (rows[kOpaque][k] > 0.0f) & (dot(kGeometricNormal, x, y, z) <= 0.0f);
+      const float cosine = lost ? 0.0f : dot(kNormal, x, y, z);
+      front[k] += light * std::max(cosine, 0.0f);
+      behind[k] += light * std::min(cosine, 0.0f);
+      sum_x[k] += light * x;
+      sum_y[k] += light * y;
+      sum_z[k] += light * z;
+    }
+  }
+  for (std::size_t k = 0; k < kBlock; ++k) {
+    const float x = sum_x[k], y = sum_y[k], z = sum_z[k];
+    const float per = 1.0f / std::max(std::sqrt(x * x + y * y + z * z), 1e-12f);
+    const float lx = front[k] > 0.0f ? front[k] : behind[k];
+    seen->lx[k] = shares[k] > 0.0f ? lx : 0.0f;
+    seen->x[k] = per * x;
+    seen->y[k] = per * y;
+    seen->z[k] = per * z;
+  }
+}
+
+/// How much of that they mirror.
+inline __attribute__((always_inline)) void mirror(const Source& lamp, const Rows& rows,
+                                                  Seen* __restrict seen) {
+  const float lamp_x = lamp.position.x(), lamp_y = lamp.position.y(), lamp_z = lamp.position.z();
+  const float radius_m = lamp.shown_radius_m, at_least = lamp.shown_at_least;
+  for (std::size_t k = 0; k < LitRows::kBlock; ++k) {
+    const auto dot = [&](std::size_t row) {
+      return rows[row][k] * seen->x[k] + rows[row + 1][k] * seen->y[k] + rows[row + 2][k] * seen->z[k];
+    };
+    const float x = lamp_x - rows[kPosition][k], y = lamp_y - rows[kPosition + 1][k],
+                z = lamp_z - rows[kPosition + 2][k];
+    const float per_m = 1.0f / std::max(std::sqrt(x * x + y * y + z * z), 1e-6f);
+    const float n_l = dot(kNormal), v_l = dot(kToEye), n_v = rows[kNormalEye][k];
     // The half vector is (l + v) / (2 v_h).
     const float v_h = std::sqrt(std::min(std::max(0.5f * (1.0f + v_l), 1e-6f), 1.0f));
     const float n_h = std::min(std::max((n_l + n_v) / (2.0f * v_h), 0.0f), 1.0f);
     const Ggx<float> facets(rows[kAlpha][k]);
-    const bool lost = (rows[kOpaque][k] > 0.0f) & (dot(kGeometricNormal, x, y, z) <= 0.0f);
-    seen->lx[k] = lost ? 0.0f : n_l * shares[k];
     seen->fresnel[k] = schlick(v_h);
     seen->lobe[k] = facets.meanDistribution(n_h, v_h, angleOf(radius_m * per_m)) *
                     facets.visibility(std::max(n_l, 0.0f), std::max(n_v, 1e-3f)) *
@@ -141,7 +233,11 @@ std::size_t reflectAll(const Source& lamp, const Rows& rows, const LitRows::Arri
     if (!choose(arriving.shares + begin, arriving.least_lx + begin, lamp.brightest, chosen)) continue;
     target.blocks[count++] = static_cast<std::uint32_t>(begin);
     const Rows block{rows.values + begin, rows.stride};
-    look(lamp, block, chosen, &seen);
+    if (lamp.panel)
+      lookAtPanel(*lamp.panel, block, chosen, &seen);
+    else
+      look(lamp, block, chosen, &seen);
+    mirror(lamp, block, &seen);
     float* const red = target.values + begin;
     for (std::size_t channel = 0; channel < 3; ++channel)
       reflectChannel(seen, channelOf(block, channel, lamp), red + channel * rows.stride);
@@ -159,8 +255,10 @@ void LitRows::set(const Tile& tile, const scene::Scene& scene, MirrorsByRays by_
   count_ = tile.surfaces.size();
   stride_ = (count_ + kBlock - 1) / kBlock * kBlock;
   rows_.assign(kRowCount * stride_, 0.0f);
+  box_.setEmpty();
   for (std::size_t i = 0; i < count_; ++i) {
     const Surface& surface = tile.surfaces[i];
+    box_.extend(surface.position);
     const Reflection reflection =
         reflectionOf(surface, scene.materials[static_cast<std::size_t>(surface.material)]);
     const DirectParts parts = directParts(reflection);
@@ -191,11 +289,14 @@ LampBeam::Points LitRows::positions() const {
 }
 
 void LitRows::reflect(const LampBeam& beam, const Arriving& arriving, Reflected* reflected) const {
+  std::optional<Panel> panel;
+  const float away = beam.isFlat() ? box_.exteriorDistance(beam.position()) / beam.half().norm() : kNear;
+  if (away < kNear) panel.emplace(beam, away < kClose ? Panel::kMost : 4);
   reflected->values.resize(4 * stride_);
   reflected->blocks.resize(stride_ / kBlock);
-  reflected->blocks.resize(reflectAll({beam.position(), beam.shownRadius_m(), beam.isBounced() ? 0.0f : 1.0f,
-                                       beam.intensity(), beam.brightest()},
-                                      {rows_.data(), stride_}, arriving,
+  const Source source{beam.position(),  beam.shownRadius_m(), beam.isSurface() ? 0.0f : 1.0f,
+                      beam.intensity(), beam.brightest(),     panel ? &*panel : nullptr};
+  reflected->blocks.resize(reflectAll(source, {rows_.data(), stride_}, arriving,
                                       {reflected->values.data(), reflected->blocks.data()}));
 }
 

@@ -2,6 +2,7 @@
 /// the same ones.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -46,6 +47,7 @@ class LitRows {
  private:
   std::size_t count_ = 0, stride_ = 0;
   std::vector<float> rows_;
+  Eigen::AlignedBox3f box_;  ///< of their positions
 };
 
 }  // namespace sunlit::light
