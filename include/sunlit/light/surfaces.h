@@ -74,10 +74,7 @@ struct Surfaces {
   std::vector<Tile> tiles;
 
   /// Where (x, y) looks, unit.
-  Eigen::Vector3f towards(float x, float y) const {
-    if (bent) return (map_from_optical * bent->at(x, y)).normalized().cast<float>();
-    return (pixel_origin + x * pixel_right + y * pixel_down).normalized();
-  }
+  Eigen::Vector3f towards(float x, float y) const;
 };
 
 }  // namespace sunlit::light
