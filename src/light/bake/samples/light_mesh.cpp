@@ -3,17 +3,24 @@
 namespace sunlit::light {
 
 LightMesh::Place LightMesh::locate(std::uint32_t root, std::array<float, 3> barycentric) const {
+  constexpr std::array<std::size_t, 3> kNext{1, 2, 0};
   std::uint32_t at = root;
   while (cells[at].inner()) {
     const std::size_t k = cells[at].corner[1];
     const float from = barycentric[k];
-    const float to = barycentric[(k + 1) % 3];
-    const float apex = barycentric[(k + 2) % 3];
+    const float to = barycentric[kNext[k]];
+    const float apex = barycentric[kNext[kNext[k]]];
     // The children are (from, point, apex) and (point, to, apex).
-    const float before = cells[at].share(), after = 1.0f - before;
-    const bool first = from * before >= to * after;
-    barycentric = first ? std::array<float, 3>{from - to * (after / before), to / before, apex}
-                        : std::array<float, 3>{from / after, to - from * (before / after), apex};
+    bool first;
+    if (cells[at].halved()) {  // most are: the same bits as below, in a fraction of the time
+      first = from >= to;
+      barycentric = {first ? from - to : from + from, first ? to + to : to - from, apex};
+    } else {
+      const float before = cells[at].share(), after = 1.0f - before;
+      first = from * before >= to * after;
+      barycentric = first ? std::array<float, 3>{from - to * (after / before), to / before, apex}
+                          : std::array<float, 3>{from / after, to - from * (before / after), apex};
+    }
     at = cells[at].child() + (first ? 0u : 1u);
   }
   return {cells[at].corner, barycentric};

@@ -33,9 +33,10 @@ struct LightMesh {
     }
     bool inner() const { return (corner[0] & kInner) != 0; }
     std::uint32_t child() const { return corner[0] & ~kInner; }
+    bool halved() const { return corner[2] == 0; }
     float share() const {
       float share = 0.5f;
-      if (corner[2] != 0) std::memcpy(&share, &corner[2], sizeof share);
+      if (!halved()) std::memcpy(&share, &corner[2], sizeof share);
       return share;
     }
     /// Where its edge is divided, whose ends are these.
