@@ -47,6 +47,8 @@ const PointsOfPixel& pointsOf(int x, int y) {
 
 /// A penumbra is wide where so many times more of the pixels around lie in it than beside it.
 constexpr int kMixed = 3;
+/// And as even, by rays, as chance and a slope make it; in a narrow one the mean would be that of a bend.
+constexpr int kEven = 6, kEvenOfFew = 3;
 
 /// Whether two surfaces lie about in one plane.
 bool isOneSurface(const Surface& a, const Surface& b) {
@@ -270,17 +272,21 @@ void LampLight::smoothPenumbrae(const Tile& tile, const std::vector<Target*>& ta
     const auto isMixed = [](const Target& one) { return one.lit > 0 && one.lit < one.cast; };
     if (!isSure(*target) || !isMixed(*target)) continue;
     const Surface& surface = tile.surfaces[target->surface];
-    int lit = 0, cast = 0, mixed = 0, others = 0;
+    int lit = 0, cast = 0, mixed = 0, others = 0, most = 0, least = kPoints;
     for (int y = std::max(target->at.y - kReach, 0); y <= std::min(target->at.y + kReach, kSide - 1); ++y) {
       for (int x = std::max(target->at.x - kReach, 0); x <= std::min(target->at.x + kReach, kSide - 1); ++x) {
         const Target* const other = at[static_cast<std::size_t>(y * kSide + x)];
-        if (!other || !isOneSurface(surface, tile.surfaces[other->surface])) continue;
+        if (!other || other->cast != target->cast) continue;
+        if (!isOneSurface(surface, tile.surfaces[other->surface])) continue;
         lit += other->lit;
         cast += other->cast;
         (isMixed(*other) ? mixed : others) += 1;
+        most = std::max<int>(most, other->lit);
+        least = std::min<int>(least, other->lit);
       }
     }
-    if (mixed > kMixed * others) target->seen = static_cast<float>(lit) / static_cast<float>(cast);
+    const bool even = most - least <= (target->cast == kPoints ? kEven : kEvenOfFew);
+    if (even && mixed > kMixed * others) target->seen = static_cast<float>(lit) / static_cast<float>(cast);
   }
 }
 
