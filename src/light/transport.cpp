@@ -31,7 +31,7 @@ constexpr float kLampHeights = 12.0f;
 AreaLights brightIn(const BakeScene& scene, const ShiningLights& shining,
                     std::vector<AreaLights::Piece> pieces) {
   const std::vector<scene::Lamp>& lamps = scene.geometry.scene->lamps;
-  std::vector<LampBeam> beams = shining.compact;
+  std::vector<LampBeam> beams = shining.beams;
   for (const LampSet& set : lampSets(lamps))
     for (const scene::Lamp& lamp : lampsOf(set, lamps)) beams.emplace_back(lamp);
   for (const std::vector<AreaLights::Piece>& lit : {litPieces(scene, beams), litPieces(scene, shining.baked)})
@@ -79,9 +79,9 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   const BakeScene scene{*geometry, rays, traits};
   const ShiningParts parts = partedBySize(shiningPieces(*geometry, traits),
                                           kLampHeights * static_cast<float>(finestOf({}, *geometry)));
-  const AreaLights baked(rays, parts.others);
-  const std::vector<LampBeam> compact(parts.compact.begin(), parts.compact.end());
-  const ShiningLights shining{baked, compact};
+  const AreaLights baked(rays, parts.others), compact(rays, parts.of_compact);
+  const std::vector<LampBeam> beams(parts.compact.begin(), parts.compact.end());
+  const ShiningLights shining{baked, compact, beams};
   constexpr double kLeaves = 0.2, kSampled = 0.4;
   auto data = std::make_unique<TransportData>();
   SceneSamples samples;

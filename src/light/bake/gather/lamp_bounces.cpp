@@ -111,11 +111,11 @@ BakedLamps LampBounces::bake() const {
   return baked;
 }
 
-/// Of each sample, whether all surfaces that have its light are such as maySendShine().
-std::vector<bool> LampBounces::sending() const {
+/// Of each sample, whether all surfaces that have its light may be looked for.
+std::vector<bool> LampBounces::sending(const LookedFor& looked) const {
   std::vector<bool> sending(samples_.receivers.size(), true);
   for (std::uint32_t t = 0; t < samples_.mesh.roots.size(); ++t) {
-    if (maySendShine(scene_, t)) continue;
+    if (looked.may(scene_, t)) continue;
     for (const std::uint32_t root : samples_.mesh.roots[t]) {
       if (!LightMesh::isCell(root)) continue;
       visitLeaves(samples_.mesh, root, Eigen::Matrix3f::Identity(),
@@ -128,28 +128,31 @@ std::vector<bool> LampBounces::sending() const {
   return sending;
 }
 
-std::vector<Arrived> LampBounces::straightAndPassedOn(const AreaLights& shining) const {
+StraightLight LampBounces::straight(const AreaLights& shining, const LookedFor& looked,
+                                    std::vector<Arrived>* arrived) const {
   const std::size_t count = samples_.receivers.size();
-  const std::vector<bool> sends = sending();
-  std::vector<Arrived> all(count);
+  const std::vector<bool> sends = sending(looked);
   StraightLight lit(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     const AreaLights::Light light = shining.at(samples_.receivers[i], i);
-    all[i] = {light.above, light.below};
-    lit.direct[i] = all[i].all();
+    if (arrived) (*arrived)[i] = {light.above, light.below};
+    lit.direct[i] = light.above + light.below;
     lit.lamp_m[i] = light.distance_m;
-    if (sends[i]) lit.looked_for[i] = lookedFor(light.distance_m, kFarthestByShining_m) * lit.direct[i];
+    if (sends[i]) lit.looked_for[i] = lookedFor(light.distance_m, looked.farthest_m) * lit.direct[i];
   });
-  add(passedOn(lit, litPieces(scene_, shining)), &all);
-  return all;
+  return lit;
 }
 
 void LampBounces::bakeShining(const ShiningLights& shining, TransportData* data) const {
   std::vector<Arrived> all(samples_.receivers.size());
-  if (shining.baked.any()) all = straightAndPassedOn(shining.baked);
-  if (!shining.compact.empty())
-    add(passedOn(lampsOnSamples(scene_, samples_, shining.compact), litPieces(scene_, shining.compact)),
-        &all);
+  if (shining.baked.any()) {
+    const StraightLight lit = straight(shining.baked, {maySendShine, kFarthestByShining_m}, &all);
+    add(passedOn(lit, litPieces(scene_, shining.baked)), &all);
+  }
+  if (shining.compact.any()) {
+    const StraightLight lit = straight(shining.compact, {maySendLampLight, kFarthestLit_m}, nullptr);
+    add(passedOn(lit, litPieces(scene_, shining.beams)), &all);
+  }
   for (std::size_t i = 0; i < all.size(); ++i) {
     storeGlow(all[i].above, i, &data->above);
     storeGlow(all[i].below, i, &data->below);

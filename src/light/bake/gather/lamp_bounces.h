@@ -10,10 +10,10 @@ namespace sunlit::light {
 
 /// What shines by itself: what is baked, and the compact sources, whose light straight is that of pictures.
 struct ShiningLights {
-  const AreaLights& baked;
-  const std::vector<LampBeam>& compact;
+  const AreaLights &baked, &compact;
+  const std::vector<LampBeam>& beams;  ///< of the compact ones
 
-  bool any() const { return baked.any() || !compact.empty(); }
+  bool any() const { return baked.any() || compact.any(); }
 };
 
 class LampBounces {
@@ -33,8 +33,15 @@ class LampBounces {
   std::vector<Arrived> passedOn(const StraightLight& lamps, std::vector<AreaLights::Piece> lit) const;
   std::vector<Arrived> lookFor(const std::vector<AreaLights::Piece>& pieces) const;
   void addBounced(const std::vector<Arrived>& has, std::vector<AreaLights::Piece>* lit) const;
-  std::vector<bool> sending() const;
-  std::vector<Arrived> straightAndPassedOn(const AreaLights& shining) const;
+  /// Of surfaces that light, which of a triangle is looked for, and up to where.
+  struct LookedFor {
+    bool (*may)(const BakeScene& scene, std::uint32_t triangle);
+    float farthest_m;
+  };
+  std::vector<bool> sending(const LookedFor& looked) const;
+  /// Light straight of what shines: `arrived` too, unless null.
+  StraightLight straight(const AreaLights& shining, const LookedFor& looked,
+                         std::vector<Arrived>* arrived) const;
 
   const BakeScene& scene_;
   const SceneSamples& samples_;

@@ -350,7 +350,7 @@ ShiningParts partedBySize(const std::vector<Piece>& pieces, float height_m) {
     for (const std::uint32_t i : one.pieces) is_compact[i] = true;
   }
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (!is_compact[i]) parts.others.push_back(pieces[i]);
+    (is_compact[i] ? parts.of_compact : parts.others).push_back(pieces[i]);
   return parts;
 }
 

@@ -10,10 +10,11 @@
 
 namespace sunlit::light {
 
-/// What shines, parted: each piece gives its light straight by one of `compact`, or is among the `others`.
+/// What shines, parted: each piece is one of those `of_compact`, which give their light straight by the
+/// sources `compact`, or among the `others`.
 struct ShiningParts {
   std::vector<CompactSource> compact;
-  std::vector<AreaLights::Piece> others;
+  std::vector<AreaLights::Piece> of_compact, others;
 };
 
 /// Of pieces that touch, and together reach no further than 1.5 m from their middle: bodies that show as
