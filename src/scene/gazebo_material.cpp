@@ -174,6 +174,13 @@ bool multiplies(const Words& words) {
          (other == "src_current" || other == "src_diffuse");
 }
 
+/// OGRE's `colour_op_ex source1 src_manual OTHER R G B`, a plain colour; none for other operations.
+std::optional<LinearRgb> manualColor(const Words& words) {
+  if (words.size() < 7 || words[0] != "colour_op_ex" || words[1] != "source1" || words[2] != "src_manual")
+    return std::nullopt;
+  return colorOf({words.begin() + 3, words.end()});
+}
+
 /// A texture unit: its pass, and its place in that, from 0.
 using Unit = std::pair<int, int>;
 
@@ -187,7 +194,8 @@ struct Reading {
   std::set<int> texture_passes = {};               ///< those with the texture
   std::set<int> plain_passes = {};                 ///< those whose texture no diffuse colour multiplies
   std::vector<std::pair<Unit, std::string>> textures = {};
-  std::set<Unit> normal_maps = {};  ///< of shaders
+  std::set<Unit> normal_maps = {};                     ///< of shaders
+  std::optional<LinearRgb> unit_color = std::nullopt;  ///< of a texture unit that is a plain colour
 
   /// Where a parent gives one of the two, it is of the same pass.
   bool tints() const {
@@ -209,7 +217,9 @@ void readPass(const Words& words, Reading& reading) {
   if (words[0] == "lighting" && words.size() > 1 && words[1] == "off")
     reading.plain_passes.insert(reading.passes);
   if ((words[0] == "colour_op" || words[0] == "colour_op_ex") && !multiplies(words)) {
-    reading.material.lost.insert(words[0]);
+    const std::optional<LinearRgb> color = manualColor(words);
+    if (color) reading.unit_color = color;
+    if (!color) reading.material.lost.insert(words[0]);
     if (reading.units_of_pass == 1) reading.plain_passes.insert(reading.passes);
   }
 }
@@ -241,6 +251,15 @@ void takeTextures(Reading& reading) {
     else
       reading.material.lost.insert("texture " + name);
   }
+}
+
+/// Without a texture, a unit's plain colour lies on all that there is.
+void takeUnitColor(Reading& reading) {
+  if (!reading.unit_color) return;
+  if (reading.textures.empty())
+    reading.material.diffuse = reading.unit_color;
+  else
+    reading.material.lost.insert("colour_op_ex");
 }
 
 /// One line, or several written as one: a keyword may follow a brace.
@@ -343,6 +362,7 @@ std::optional<ScriptMaterial> materialIn(const Script& script, std::size_t end, 
   }
   if (!reading) return std::nullopt;
   takeTextures(*reading);
+  takeUnitColor(*reading);
   reading->material.tints = reading->tints();
   if (parent) inherit(*parent, &reading->material);
   return reading->material;

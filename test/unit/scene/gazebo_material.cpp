@@ -90,6 +90,27 @@ TEST(GazeboMaterial, ReadsHowLargeItsFirstTextureIs) {
   }
 }
 
+TEST(GazeboMaterial, ATextureUnitMayBeAPlainColour) {
+  const auto of = [](const std::string& first, const std::string& unit) {
+    return *parseMaterialScript("material A { technique { pass { diffuse 0 0 1 1\n" + first +
+                                    "\ntexture_unit {\n" + unit + "\n} } } }",
+                                "A");
+  };
+  const ScriptMaterial orange = of("", "colour_op_ex source1 src_manual src_current 1 0.5 0");
+  ASSERT_TRUE(orange.diffuse);
+  EXPECT_EQ(orange.diffuse->value[0], 1.0f);
+  EXPECT_NEAR(orange.diffuse->value[1], 0.2140f, 5e-5f);  // ((0.5 + 0.055) / 1.055)^2.4
+  EXPECT_EQ(orange.diffuse->value[2], 0.0f);
+  EXPECT_TRUE(orange.lost.empty());
+  const std::string pictured = "texture_unit {\n texture a.png\n}";
+  for (const ScriptMaterial& other : {of("", "colour_op_ex source1 src_manual src_current"),
+                                      of("", "colour_op_ex source2 src_manual src_current 1 0 0"),
+                                      of(pictured, "colour_op_ex source1 src_manual src_current 1 0 0")}) {
+    EXPECT_EQ(other.diffuse->value[2], 1.0f);
+    EXPECT_EQ(other.lost, std::set<std::string>{"colour_op_ex"});
+  }
+}
+
 TEST(GazeboMaterial, ANormalMapOfAShaderIsNoColour) {
   const std::string shader =
       "fragment_program_ref Waves {\n param_named deepColor float4 0 0.05 0.2 1\n param_named BumpMap int "
