@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <clocale>
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
@@ -114,6 +115,8 @@ int refuseWord(const std::string& word, const std::string& name) {
 
 int runNode(int argc, char** argv, const std::string& name, const std::function<int()>& node) {
   image::prepareProcess();
+  // All text is UTF-8, of which the console writes ? for each byte that the locale does not know.
+  std::setlocale(LC_CTYPE, "C.UTF-8");
   std::optional<EndsWithItsParent> of_roslaunch;
   if (isOfRoslaunch(argc, argv)) of_roslaunch.emplace();
   ros::init(argc, argv, name);

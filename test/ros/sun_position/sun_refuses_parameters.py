@@ -21,7 +21,8 @@ def start(parameters):
     rospy.set_param("/bad_sun", parameters)
     try:
         return subprocess.run([located("sun_position_node"), "__name:=bad_sun"], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT_S)
+                              stderr=subprocess.PIPE, encoding="utf-8", timeout=TIMEOUT_S,
+                              env={**os.environ, "LC_ALL": "C"})
     finally:
         rospy.delete_param("/bad_sun")
 
@@ -59,6 +60,7 @@ class SunRefusesParameters(unittest.TestCase):
         self.check({"date_time": {"month": 2, "day": 31}}, "/bad_sun/date_time/day", "31", "from 1 to 29")
         self.check({"date_time": {"second": 60.0}}, "/bad_sun/date_time/second", "60")
         self.check({"earth": {"delta_t": "soon"}}, "/bad_sun/earth/delta_t", "soon", "auto")
+        self.check({"earth": {"delta_t": "später …"}}, "später …")  # whatever the locale
         self.check({"publish_rate": 0}, "/bad_sun/publish_rate", "0", "from 0.01 to 1000")
         self.check({"conditions": {"h04": {"hour": 25}}}, "h04/hour", "25", "from 0 to 23")
 
