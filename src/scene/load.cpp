@@ -35,7 +35,7 @@ bool isOneOf(const std::string& extension, std::initializer_list<const char*> kn
 
 Scene loadMeshFile(const std::string& file, const ResourceFinder& finder) {
   SceneBuilder builder(file);
-  for (MeshPart& part : readMeshFile(file, UpAxis::kAsDeclared, finder, builder)) {
+  for (MeshPart& part : readMeshFile(file, {UpAxis::kAsDeclared}, finder, builder)) {
     leaveCoordinates(true, part);
     builder.addPiece(part.mesh, part.file_from_node);
   }

@@ -229,6 +229,9 @@ std::vector<std::string> namesOfMaterials(const aiScene& scene) {
 
 /// By their index in `scene`; none for those that no mesh uses, which Assimp adds of its own too.
 std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const MeshFileContext& context) {
+  for (const std::string& material : context.effects.set_apart)
+    context.builder.warn("materials set parameters of their effects by <setparam>, which is not read",
+                         material + " of " + context.file);
   std::vector<std::optional<MeshLook>> looks(scene.mNumMaterials);
   std::vector<bool> used(scene.mNumMaterials, false);
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
@@ -238,6 +241,12 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
     if (used[i]) looks[i] = addMeshMaterial(i, scene, context);
   }
   return looks;
+}
+
+/// In their place, where nobody wants them. Texture coordinates are as they stand in the file.
+std::vector<std::optional<MeshLook>> plainLooks(const aiScene& scene, SceneBuilder& unused) {
+  const MeshLook plain{unused.addMaterial({}, AlphaRule::kDeclared), {CoordinateRecipe()}};
+  return std::vector<std::optional<MeshLook>>(scene.mNumMaterials, plain);
 }
 
 /// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended.
@@ -251,9 +260,6 @@ ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, 
   requireReadableCollada(text, file);
   text = withParameters(withKnownSets(text));
   ColladaEffects effects = effectsOf(text);
-  for (const std::string& material : effects.set_apart)
-    builder.warn("materials set parameters of their effects by <setparam>, which is not read",
-                 material + " of " + file);
   text = withExponentsOfSpots(withNamesOfLamps(withWeightsAtOnce(withBareMaterials(text))));
   if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return effects;
   const ColladaText readable = readableCollada(text);
@@ -331,9 +337,11 @@ void refuseMacros(const std::string& file) {
     throw std::runtime_error(file + ": this is a macro file; turn it into a URDF or a world first, by xacro");
 }
 
-std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
-                                   SceneBuilder& builder) {
+std::vector<MeshPart> readMeshFile(const std::string& file, const MeshReading& reading,
+                                   const ResourceFinder& finder, SceneBuilder& builder) {
   requireContent(file);
+  SceneBuilder unused(file);
+  SceneBuilder& look_builder = reading.looks ? builder : unused;
   const std::string extension = extensionOf(file);
   const bool collada = extension == ".dae";
   const bool gltf = extension == ".gltf" || extension == ".glb";
@@ -345,9 +353,9 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
     importer.SetIOHandler(gltf_materials->input().release());
   } else if (extension == ".obj") {
     importer.SetIOHandler(std::make_unique<ObjInput>().release());
-    libraries = readLibraries(file, builder);
+    libraries = readLibraries(file, look_builder);
   }
-  setUp(importer, up_axis);
+  setUp(importer, reading.up_axis);
   ColladaEffects effects = readInto(importer, file, builder);
   const aiScene* const scene = prepared(importer, gltf);
   if (scene == nullptr || scene->mRootNode == nullptr) {
@@ -356,26 +364,32 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   }
 
   if (gltf) gltf_materials->nameTheRest(trianglesIn(*scene));
-  const std::vector<std::optional<MeshLook>> looks = addMaterials(
-      *scene,
-      MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
-                      gltf ? gltf_materials->order(namesOfMaterials(*scene)) : std::vector<std::size_t>(),
-                      std::move(libraries.files), std::move(libraries.materials), std::move(effects)});
+  const MeshFileContext context{
+      file,
+      gltf ? &*gltf_materials : nullptr,
+      finder,
+      builder,
+      gltf ? gltf_materials->order(namesOfMaterials(*scene)) : std::vector<std::size_t>(),
+      std::move(libraries.files),
+      std::move(libraries.materials),
+      std::move(effects)};
+  const std::vector<std::optional<MeshLook>> looks =
+      reading.looks ? addMaterials(*scene, context) : plainLooks(*scene, unused);
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
-  const bool y_up = (gltf || collada) && up_axis == UpAxis::kAsDeclared;
+  const bool y_up = (gltf || collada) && reading.up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
   TriangleBudget budget;
   askFor(*scene->mRootNode, *scene, file, budget);
   Collector collector{*scene, looks, gltf, up_from_file};
   collector.collect(*scene->mRootNode, up_from_file);
   warnOfLosses(collector, file, builder);
-  if (up_axis != UpAxis::kAsDeclared)
+  if (reading.up_axis != UpAxis::kAsDeclared)
     warnOfLamps(*scene, file, builder);
   else if (gltf)
     gltf_materials->addLights(up_from_file);
   else
     addColladaLamps(*scene, up_from_file, builder);
-  if (!gltf) partBackToBack(collector.parts, builder);  // which says itself what is one-sided
+  if (!gltf) partBackToBack(collector.parts, look_builder);  // which says itself what is one-sided
   return std::move(collector.parts);
 }
 

@@ -18,11 +18,17 @@ enum class UpAxis {
   kZ,
 };
 
+/// How a mesh file is wanted.
+struct MeshReading {
+  UpAxis up_axis;
+  bool looks = true;  ///< that its file gives it; false: whoever wants the parts puts a material on each
+};
+
 /// One piece of a mesh file: its triangles in the frame of their node, and where that stands in the file.
 struct MeshPart {
   std::string node;      ///< name of its node in the file
   std::string geometry;  ///< name of the mesh in the file
-  Mesh mesh;             ///< `material` is an index into the builder's materials
+  Mesh mesh;             ///< `material` is an index into the builder's materials, if the looks are wanted
   Eigen::Affine3d file_from_node = Eigen::Affine3d::Identity();  ///< to z up, m
   /// The last of mesh.more_texture_coordinates are the first set as it stands in the file, which its own
   /// material has no use for, and any other wants: see leaveCoordinates().
@@ -39,9 +45,10 @@ std::string extensionOf(const std::string& file);
 /// Throws std::runtime_error if it is a macro file (.xacro), which is none of a world or robot yet.
 void refuseMacros(const std::string& file);
 
-/// Reads `file`; its materials and textures go to `builder`, and with kAsDeclared, which is for files that
-/// are a world of their own, its lights, too. Throws std::runtime_error naming the file and what is wrong.
-std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
-                                   SceneBuilder& builder);
+/// Reads `file`; its materials and textures go to `builder`, if they are wanted, with what there is to say of
+/// them, and with kAsDeclared, which is for files that are a world of their own, its lights, too. Throws
+/// std::runtime_error naming the file and what is wrong.
+std::vector<MeshPart> readMeshFile(const std::string& file, const MeshReading& reading,
+                                   const ResourceFinder& finder, SceneBuilder& builder);
 
 }  // namespace sunlit::scene

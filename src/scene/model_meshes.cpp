@@ -24,7 +24,7 @@ const std::vector<MeshPart>* ModelMeshes::partsOf(const std::string& uri, const 
 
 bool ModelMeshes::read(const std::string& file) {
   try {
-    parts_by_file_[file] = readMeshFile(file, UpAxis::kZ, finder_, builder_);
+    parts_by_file_[file] = readMeshFile(file, {UpAxis::kZ, looks_}, finder_, builder_);
     return true;
   } catch (const std::runtime_error& error) {
     if (finder_.missing() == Missing::kStop) throw;

@@ -13,7 +13,9 @@ namespace sunlit::scene {
 
 class ModelMeshes {
  public:
-  ModelMeshes(const ResourceFinder& finder, SceneBuilder& builder) : finder_(finder), builder_(builder) {}
+  /// `looks` as MeshReading::looks.
+  ModelMeshes(const ResourceFinder& finder, SceneBuilder& builder, bool looks = true)
+      : finder_(finder), builder_(builder), looks_(looks) {}
 
   /// The parts of the mesh that `from_file` calls `uri`, z up, as RViz and Gazebo have them, whatever axis a
   /// COLLADA file declares. `place` names what shows it in messages. Where the file is missing or cannot be
@@ -26,6 +28,7 @@ class ModelMeshes {
 
   const ResourceFinder& finder_;
   SceneBuilder& builder_;
+  bool looks_;
   std::map<std::string, std::vector<MeshPart>> parts_by_file_;
 };
 

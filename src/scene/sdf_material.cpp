@@ -14,6 +14,14 @@ LinearRgb toLinear(const ignition::math::Color& color) {
   return linearFromSrgb({color.R(), color.G(), color.B()});
 }
 
+bool isPlain(const sdf::Material& source) {
+  return source.Element()->HasElement("diffuse") || source.Element()->HasElement("ambient");
+}
+
+bool isScripted(const sdf::Material& source) {
+  return !source.ScriptName().empty() && source.Element()->HasElement("script");
+}
+
 /// Times that of its texture.
 void setOpacity(float opacity, Material* material) {
   material->alpha_mode = AlphaMode::kBlend;
@@ -134,15 +142,18 @@ void SdfMaterials::nameLost(const sdf::Material& source, const std::string& name
   if (!source.NormalMap().empty()) lost("the normal map of its <shader>: without it");
 }
 
-std::optional<int> SdfMaterials::add(const sdf::Material* source, const std::string& user) {
-  const sdf::ElementPtr element = source != nullptr ? source->Element() : nullptr;
-  if (!element) return std::nullopt;
-  const bool plain = element->HasElement("diffuse") || element->HasElement("ambient");
-  const bool scripted = !source->ScriptName().empty() && element->HasElement("script");
-  const bool pbr = source->PbrMaterial() != nullptr;
-  const bool glows = element->HasElement("emissive") && toLinear(source->Emissive()).value.maxCoeff() > 0.0f;
-  if (!plain && !scripted && !pbr && !glows) return std::nullopt;
+bool SdfMaterials::isLook(const sdf::Material* source) {
+  if (source == nullptr || !source->Element()) return false;
+  const bool glows =
+      source->Element()->HasElement("emissive") && toLinear(source->Emissive()).value.maxCoeff() > 0.0f;
+  return isPlain(*source) || isScripted(*source) || source->PbrMaterial() != nullptr || glows;
+}
 
+std::optional<int> SdfMaterials::add(const sdf::Material* source, const std::string& user) {
+  if (!isLook(source)) return std::nullopt;
+  const sdf::ElementPtr element = source->Element();
+  const bool plain = isPlain(*source), scripted = isScripted(*source);
+  const bool pbr = source->PbrMaterial() != nullptr;
   const std::string content = source->FilePath() + element->ToString("");
   const auto known = index_by_content_.find(content);
   if (known != index_by_content_.end()) return known->second;

@@ -21,8 +21,10 @@ class SdfMaterials {
   SdfMaterials(const ResourceFinder& finder, SceneBuilder& builder)
       : finder_(finder), builder_(builder), scripts_(finder) {}
 
-  /// Index of the material in the builder. None if `source` is null or says nothing about the look (a bare
-  /// shader, say): a mesh then keeps its own. It has the name of its script, else of its first `user`.
+  /// Whether `source` is there and says anything about the look: add() gives a material then.
+  static bool isLook(const sdf::Material* source);
+  /// Index of the material in the builder. None unless isLook() (of a bare shader, say): a mesh then keeps
+  /// its own. It has the name of its script, else of its first `user`.
   std::optional<int> add(const sdf::Material* source, const std::string& user);
 
   /// Gives `mesh` a material of add(), with its texture as large as the script says.

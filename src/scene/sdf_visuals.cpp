@@ -213,7 +213,8 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& 
                               const std::string& name, float opacity) {
   const sdf::Mesh& mesh = *visual.Geom()->MeshShape();
   const std::string& from = mesh.FilePath().empty() ? file_ : mesh.FilePath();
-  const std::vector<MeshPart>* all = meshes_.partsOf(mesh.Uri(), from, from + ": visual " + name);
+  ModelMeshes& meshes = SdfMaterials::isLook(visual.Material()) ? bare_meshes_ : meshes_;
+  const std::vector<MeshPart>* all = meshes.partsOf(mesh.Uri(), from, from + ": visual " + name);
   if (all == nullptr) return;
   const std::optional<int> material = materials_.add(visual.Material(), name);
   std::vector<MeshPart> parts;

@@ -28,7 +28,8 @@ class SdfVisuals {
         finder_(finder),
         builder_(builder),
         materials_(finder, builder),
-        meshes_(finder, builder) {}
+        meshes_(finder, builder),
+        bare_meshes_(finder, builder, false) {}
 
   /// What is added from now on stands where the state says.
   void standAs(const SdfState& state) { state_ = state; }
@@ -63,6 +64,7 @@ class SdfVisuals {
   SceneBuilder& builder_;
   SdfMaterials materials_;
   ModelMeshes meshes_;
+  ModelMeshes bare_meshes_;  ///< of visuals with a material of their own
   std::optional<int> bare_road_;
   std::map<std::string, Eigen::Affine3d>
       map_from_models_;  ///< by full name, merged ones included, of those that are not deleted

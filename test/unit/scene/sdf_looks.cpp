@@ -238,6 +238,32 @@ TEST_F(SdfLook, AMeshKeepsItsOwnMaterialUnlessTheVisualHasOne) {
             1.0f);
 }
 
+TEST_F(SdfLook, OfLooksThatAreReplacedNothingIsSaid) {
+  const std::string own = "<material><script><name>Gazebo/Grey</name></script></material>";
+  write("roof.mtl", "newmtl tiles\nmap_Kd gone.png\n");
+  write("roof.obj", "mtllib roof.mtl\nusemtl tiles\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  writeTexture("there.png");
+  write("wall.mtl", "newmtl paint\nmap_Kd there.png\n");
+  write("wall.obj", "mtllib wall.mtl\nusemtl paint\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string roof = "<mesh><uri>roof.obj</uri></mesh>";
+  const Scene grey = loaded(own, "", roof), wall = loaded(own, "", "<mesh><uri>wall.obj</uri></mesh>");
+  EXPECT_TRUE(grey.warnings.empty()) << grey.warnings[0];
+  EXPECT_TRUE(wall.textures.empty());
+  for (const Scene& scene : {grey, wall}) {
+    EXPECT_EQ(look(scene).name, "Gazebo/Grey");
+    EXPECT_EQ(scene.triangleCount(), 1u);
+  }
+  const std::vector<std::string> missing = {
+      "1 textures are missing, a neutral material takes their place: gone.png of " + pathOf("roof.obj")};
+  EXPECT_EQ(loaded("", "", roof).warnings, missing);
+  // Of three visuals that show the same file, the last.
+  const Scene both = loaded(own, "",
+                            roof + "</geometry></visual><visual name='u'><geometry>" + roof +
+                                "</geometry></visual><visual name='t'><geometry>" + roof);
+  EXPECT_EQ(both.triangleCount(), 3u);
+  EXPECT_EQ(both.warnings, missing);
+}
+
 // A ray meets two faces of a box, and one of a plane; what is left of the light behind is the transparency.
 TEST_F(SdfLook, TransparentVisualsAreSeenThrough) {
   const auto opacity = [&](const std::string& geometry, const std::string& transparency) {
