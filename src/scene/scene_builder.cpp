@@ -33,6 +33,20 @@ image::Rgba8Image white(const image::Rgba8Image& as_large) {
   return picture;
 }
 
+/// What an example is about, such as a material, of which it may name one feature of several.
+std::string subjectOf(const std::string& where) {
+  return where.substr(0, where.find(": "));
+}
+
+/// The latest of `examples` whose subject an earlier one has, too; their end where there is none.
+std::vector<std::string>::iterator repeatedIn(std::vector<std::string>& examples) {
+  std::set<std::string> subjects;
+  auto repeated = examples.end();
+  for (auto example = examples.begin(); example != examples.end(); ++example)
+    if (!subjects.insert(subjectOf(*example)).second) repeated = example;
+  return repeated;
+}
+
 std::string canonical(const std::string& file) {
   if (file.empty()) return file;
   std::error_code error;
@@ -259,7 +273,15 @@ void SceneBuilder::count(const std::string& what, const std::string& where) {
   Kind& kind = kinds_[what];
   ++kind.times;
   const bool is_new = !where.empty() && kind.known.insert(where).second;
-  if (is_new && kind.examples.size() < kExamples) kind.examples.push_back(where);
+  if (!is_new) return;
+  std::vector<std::string>& examples = kind.examples;
+  if (examples.size() == kExamples) {
+    const auto isOfSame = [&](const std::string& other) { return subjectOf(other) == subjectOf(where); };
+    const auto repeated = repeatedIn(examples);
+    if (repeated == examples.end() || std::any_of(examples.begin(), examples.end(), isOfSame)) return;
+    examples.erase(repeated);
+  }
+  examples.push_back(where);
 }
 
 SceneBuilder::Decoded SceneBuilder::decoded(const TextureSource& source) {

@@ -101,9 +101,9 @@ class SceneBuilder {
 
   /// Adds a line to Scene::warnings, once for equal lines.
   void warn(const std::string& line);
-  /// One line for all of one kind, however many: "<count> <what>: <the first few of where>". Equal ones count
-  /// once. `what` is in the plural and says what was made of it: "textures are missing, a neutral grey takes
-  /// their place".
+  /// One line for all of one kind, however many: "<count> <what>: <the first few of where>", of different
+  /// subjects, which stand before ": ", if there are such. Equal ones count once. `what` is in the plural and
+  /// says what was made of it: "textures are missing, a neutral grey takes their place".
   void warn(const std::string& what, const std::string& where);
   /// The same where equal ones count each; "<count> <what>" where none is named.
   void count(const std::string& what, const std::string& where = "");

@@ -272,6 +272,13 @@ TEST_F(MeshFile, AHundredWarningsOfAKindAreOneLine) {
                    "gone101.png; gone102.png; …");
 }
 
+TEST_F(MeshFile, ExamplesOfAKindAreOfDifferentSubjects) {
+  SceneBuilder builder("");
+  for (const char* where : {"a: 1", "a: 2", "a: 3", "b: 1", "b: 2", "c: 1", "d: 1"})
+    builder.warn("flaws", where);
+  EXPECT_EQ(builder.finish().warnings, std::vector<std::string>{"7 flaws: a: 1; b: 1; c: 1; …"});
+}
+
 TEST_F(MeshFile, ObjIsTakenAsZUpAndGetsNormals) {
   const Scene scene = load(write("roof.obj", "v 0 0 1\nv 2 0 1\nv 2 3 1\nv 0 3 1\nf 1 2 3 4\n"), {});
   EXPECT_EQ(scene.triangleCount(), 2u);  // the quadrilateral cut in two
