@@ -45,6 +45,15 @@ void removeUnlocked(const std::vector<std::filesystem::path>& paths) {
   }
 }
 
+/// https://github.com/git-lfs/git-lfs/blob/main/docs/spec.md
+bool isLfsPointer(const std::string& path) {
+  const std::string begin = "version https://git-lfs.github.com/spec/v1";
+  std::string read(begin.size(), '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(read.data(), static_cast<std::streamsize>(read.size()));
+  return read == begin;
+}
+
 template <int kChannels>
 void writeMap(const std::string& path, const Picture<float, kChannels>& image) {
   std::ostringstream header;
@@ -103,12 +112,15 @@ void prepareProcess() {
   ::signal(SIGXFSZ, SIG_IGN);
 }
 
-void requireNoDevice(const std::string& path) {
+void requireContent(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
     throw std::runtime_error(path + ": this is a pipe or a device, and no file");
+  if (fs::is_regular_file(status) && isLfsPointer(path))
+    throw ContentMissing(
+        path + ": this is a Git LFS pointer, and not the file itself: run `git lfs pull` in its folder");
 }
 
 std::string readWholeFile(const std::string& path) {

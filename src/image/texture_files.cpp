@@ -203,7 +203,7 @@ cv::Mat shrunk(const cv::Mat& decoded, int longest_px) {
 }
 
 std::vector<std::uint8_t> contentOf(const std::string& file) {
-  requireNoDevice(file);
+  requireContent(file);
   std::ifstream stream(file, std::ios::binary);
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream.is_open() || stream.bad()) throw std::runtime_error(file + ": cannot read this picture");

@@ -103,14 +103,14 @@ std::string GltfBuffers::pathOf(const std::string& uri) const {
   return meantPath((std::filesystem::path(file_).parent_path() / uri).string());
 }
 
-void GltfBuffers::requireNoDevices() const {
+void GltfBuffers::requireContents() const {
   const nlohmann::json& list = child(root_, "buffers");
   if (!list.is_array()) return;
   for (const nlohmann::json& buffer : list) {
     const nlohmann::json& address = child(buffer, "uri");
     if (!address.is_string()) continue;
     const auto& uri = address.get_ref<const std::string&>();
-    if (!isInline(uri)) image::requireNoDevice(pathOf(uri));
+    if (!isInline(uri)) image::requireContent(pathOf(uri));
   }
 }
 

@@ -14,8 +14,8 @@ class GltfBuffers {
   /// `root` is the JSON of `file`. Keeps references.
   GltfBuffers(nlohmann::json& root, const std::string& file) : root_(root), file_(file) {}
 
-  /// image::requireNoDevice() of each file. Assimp may pass over what its input throws.
-  void requireNoDevices() const;
+  /// image::requireContent() of each file. Assimp may pass over what its input throws.
+  void requireContents() const;
   /// From a file beside it, from a data address, or from the second chunk of a .glb; or as it was made.
   /// Throws std::runtime_error that says what is not there.
   const std::string& bytes(std::size_t buffer);

@@ -19,6 +19,7 @@
 #include "scene/gltf_numbers.h"
 #include "scene/gltf_unpack.h"
 #include "scene/memory_stream.h"
+#include "sunlit/image/files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -154,7 +155,7 @@ GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(fi
   mended |= usePlainAddresses(root);
   mended |= root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
   try {
-    buffers.requireNoDevices();
+    buffers.requireContents();
     mended |= unpackViews(root, buffers);
     mended |= unpackDraco(root, buffers);
     mended |= placeInstances(root, buffers);
@@ -165,6 +166,8 @@ GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(fi
     mended |= nameJoints(root);
   } catch (const json::exception& error) {
     throw std::runtime_error(file + ": an attribute is not as glTF has it: " + error.what());
+  } catch (const image::ContentMissing& error) {
+    throw image::ContentMissing(file + ": " + error.what());
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file + ": " + error.what());
   }

@@ -14,6 +14,7 @@
 #include "scene/gltf_rest.h"
 #include "scene/gltf_unpack.h"
 #include "scene/mesh_file.h"
+#include "sunlit/image/files.h"
 
 namespace sunlit::scene {
 
@@ -90,6 +91,8 @@ std::unique_ptr<GltfInput> GltfMaterials::input() const {
     if (input->turnedOfInstances() > 0)
       builder_.warn(kTurns, std::to_string(input->turnedOfInstances()) + " instances in " + file_);
     return input;
+  } catch (const image::ContentMissing&) {
+    throw;  // whatever the file needs besides
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(error.what() + whatItNeeds());
   }

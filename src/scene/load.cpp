@@ -99,7 +99,7 @@ std::string fileOf(const std::string& world, const SearchPath& search_path) {
   const Found found = ResourceFinder(search_path, world).find(world, world);
   if (!found.file) throw std::runtime_error("there is no world " + world + "; " + placesTried(found));
   const std::string file = std::filesystem::is_directory(*found.file) ? worldIn(*found.file) : *found.file;
-  image::requireNoDevice(file);
+  image::requireContent(file);
   if (isOneOf(extensionOf(file), {".world", ".sdf", ".urdf", ".dae", ".gltf", ".glb", ".obj"})) return file;
   refuseMacros(file);
   throw std::runtime_error(file +

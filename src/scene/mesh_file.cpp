@@ -311,7 +311,7 @@ ObjLibraries readLibraries(const std::string& file, SceneBuilder& builder) {
 
 /// Assimp would find no reader for a folder, and miss anything but content in an empty file.
 void requireContent(const std::string& file) {
-  image::requireNoDevice(file);
+  image::requireContent(file);
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw std::runtime_error(file + ": this is a folder, and no mesh");

@@ -26,6 +26,9 @@ bool ModelMeshes::read(const std::string& file) {
   try {
     parts_by_file_[file] = readMeshFile(file, {UpAxis::kZ, looks_}, finder_, builder_);
     return true;
+  } catch (const image::ContentMissing& error) {
+    leaveOut(kMissingMeshes, error, finder_, builder_);
+    return false;
   } catch (const std::runtime_error& error) {
     if (finder_.missing() == Missing::kStop) throw;
     builder_.warn("meshes cannot be read and were left out", error.what());

@@ -22,7 +22,7 @@ namespace sunlit::scene {
 namespace {
 
 std::string contentOf(const std::string& path) {
-  image::requireNoDevice(path);
+  image::requireContent(path);
   std::ifstream stream(path, std::ios::binary);
   return utf8Of({std::istreambuf_iterator<char>(stream), {}}, path);
 }
@@ -132,6 +132,8 @@ std::string withPlainLines(const std::string& text, const std::string& file) {
 MtlContent contentOfLibrary(const std::string& library, const std::filesystem::path& object) {
   try {
     return contentOfMtl(contentOf(library), library);
+  } catch (const image::ContentMissing& problem) {
+    throw image::ContentMissing(object.string() + ": its library " + problem.what());
   } catch (const std::runtime_error& problem) {
     throw std::runtime_error(object.string() + ": its library " + problem.what());
   }

@@ -314,6 +314,8 @@ SceneBuilder::Decoded SceneBuilder::decoded(const TextureSource& source) {
 void SceneBuilder::decodeTextures() {
   scene_.textures.resize(sources_.size());
   std::vector<std::string> errors(sources_.size());
+  constexpr const char* kBroken = "textures cannot be decoded, a neutral material takes their place";
+  std::vector<const char*> faults(sources_.size(), kBroken);
   std::vector<std::string> sizes(sources_.size());
   std::vector<std::string> lost(sources_.size());
   std::vector<char> blended(sources_.size(), 0);
@@ -324,6 +326,9 @@ void SceneBuilder::decodeTextures() {
       sizes[i] = std::move(texture.size_in_file);
       lost[i] = std::move(texture.lost_opacity);
       blended[i] = texture.blended ? 1 : 0;
+    } catch (const image::ContentMissing& error) {
+      errors[i] = error.what();
+      faults[i] = kMissingTextures;
     } catch (const std::runtime_error& error) {
       errors[i] = error.what();
     }
@@ -336,7 +341,7 @@ void SceneBuilder::decodeTextures() {
     if (blended[i])
       warn("textures are too large for hard edges between texels, they are blended", sources_[i].name);
     if (errors[i].empty()) continue;
-    warn("textures cannot be decoded, a neutral material takes their place", errors[i]);
+    warn(faults[i], errors[i]);
     forgetTexture(static_cast<int>(i));
   }
 }

@@ -257,6 +257,9 @@ const SdfFile* SdfFiles::included(const XMLElement& include, const SdfFile& file
   if (open_.count(path) == 1) throw std::runtime_error(place + ": " + path + " includes itself here");
   try {
     return &open(path);
+  } catch (const image::ContentMissing& error) {
+    leaveOut(kMissingModels, error, finder_, builder_);
+    return nullptr;
   } catch (const std::runtime_error& error) {
     if (finder_.missing() == Missing::kStop) throw;
     open_.erase(path);

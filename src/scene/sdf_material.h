@@ -19,7 +19,7 @@ namespace sunlit::scene {
 class SdfMaterials {
  public:
   SdfMaterials(const ResourceFinder& finder, SceneBuilder& builder)
-      : finder_(finder), builder_(builder), scripts_(finder) {}
+      : finder_(finder), builder_(builder), scripts_(finder, builder) {}
 
   /// Whether `source` is there and says anything about the look: add() gives a material then.
   static bool isLook(const sdf::Material* source);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "sunlit/image/files.h"
 #include "sunlit/quantity/utf8.h"
 
 namespace sunlit::scene {
@@ -94,9 +95,13 @@ std::optional<std::string> MaterialScripts::texture(const ScriptMaterial& materi
 
 const std::string& MaterialScripts::textOf(const std::string& file) {
   const auto [place, is_new] = texts_.try_emplace(file);
-  if (is_new) {
+  if (!is_new) return place->second;
+  try {
+    image::requireContent(file);
     std::ifstream stream(file, std::ios::binary);
     place->second = utf8Of({std::istreambuf_iterator<char>(stream), {}}, file);
+  } catch (const image::ContentMissing& error) {
+    builder_.warn("material scripts are missing", error.what());
   }
   return place->second;
 }

@@ -9,6 +9,7 @@
 
 #include "scene/gazebo_material.h"
 #include "scene/resource_finder.h"
+#include "scene/scene_builder.h"
 
 namespace sunlit::scene {
 
@@ -23,7 +24,7 @@ struct ScriptUse {
 /// heap. Here the addresses come first, so that equal names of different models stay apart.
 class MaterialScripts {
  public:
-  explicit MaterialScripts(const ResourceFinder& finder) : finder_(finder) {}
+  MaterialScripts(const ResourceFinder& finder, SceneBuilder& builder) : finder_(finder), builder_(builder) {}
 
   /// None where no script has it. Its parents may be in any script that is looked through, or beside it.
   std::optional<ScriptMaterial> find(const ScriptUse& use);
@@ -39,6 +40,7 @@ class MaterialScripts {
   const std::string& textOf(const std::string& file);
 
   const ResourceFinder& finder_;
+  SceneBuilder& builder_;
   std::map<std::string, std::string> texts_;  ///< by file
 };
 

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "scene/color.h"
+#include "scene/missing_kinds.h"
 #include "scene/sdf_mend.h"
 #include "scene/sdf_pose.h"
 #include "scene/terrain.h"
+#include "sunlit/image/files.h"
 #include "sunlit/image/texture_files.h"
 
 namespace sunlit::scene {
@@ -16,6 +18,8 @@ namespace {
 
 /// px of the one picture of several layers.
 constexpr int kBakedSide = 2048;
+
+constexpr const char* kLeftOut = "height maps are missing or cannot be read and were left out";
 
 /// Gazebo's own flat one, which most height maps have, says nothing.
 bool hasNormals(const std::string& picture) {
@@ -35,6 +39,12 @@ std::vector<TerrainLayer> layersOf(const SdfHeightmap& source, SceneBuilder& bui
     if (!found.file) found = finder.findTexture(texture.Diffuse(), source.FilePath());
     if (!found.file) {
       builder.warn(kMissingTextures, texture.Diffuse() + " of a height map of " + source.FilePath());
+      continue;
+    }
+    try {
+      image::requireContent(*found.file);
+    } catch (const image::ContentMissing& error) {
+      builder.warn(kMissingTextures, error.what());
       continue;
     }
     TerrainLayer layer;
@@ -109,9 +119,12 @@ std::optional<Mesh> terrainOf(const SdfHeightmap& source, const TerrainUse& use,
     const Eigen::Vector3f position = toEigen(source.Position()).cast<float>();
     for (Eigen::Vector3f& vertex : mesh.positions) vertex += position;
     return mesh;
+  } catch (const image::ContentMissing& error) {
+    leaveOut(kLeftOut, error, finder, builder);
+    return std::nullopt;
   } catch (const std::runtime_error& error) {
     if (finder.missing() == Missing::kStop) throw;
-    builder.warn("height maps are missing or cannot be read and were left out", error.what());
+    builder.warn(kLeftOut, error.what());
     return std::nullopt;
   }
 }

@@ -46,7 +46,7 @@ void dropLateDeclaration(std::string* text) {
 }  // namespace
 
 std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file) {
-  image::requireNoDevice(file);
+  image::requireContent(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(file + ": cannot open this file");
   std::string text = utf8Of({std::istreambuf_iterator<char>(stream), {}}, file);

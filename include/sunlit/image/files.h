@@ -2,6 +2,7 @@
 /// process is killed; every failure throws std::runtime_error "path: what failed: why".
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "sunlit/image/images.h"
@@ -20,9 +21,16 @@ void prepareProcess();
 /// exist.
 void writeFileAtomically(const std::string& path, const std::string& bytes);
 
+/// A file is there in name alone.
+class ContentMissing : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Throws std::runtime_error where `path` is there, but neither a file nor a folder: whoever reads a pipe or
-/// a device may never be done. For files that other files name.
-void requireNoDevice(const std::string& path);
+/// a device may never be done; and ContentMissing where it is a pointer of Git LFS to the file that is meant.
+/// For files that other files name.
+void requireContent(const std::string& path);
 
 /// All bytes of a file. Throws std::runtime_error with path and reason.
 std::string readWholeFile(const std::string& path);

@@ -47,7 +47,7 @@ Robot loadRobot(const std::string& file, const SearchPath& search_path) {
   if (!found.file || std::filesystem::is_directory(*found.file)) {
     throw std::runtime_error("there is no robot " + file + "; " + placesTried(found));
   }
-  image::requireNoDevice(*found.file);
+  image::requireContent(*found.file);
   const std::string extension = extensionOf(*found.file);
   if (extension == ".sdf") return loadSdfRobot(*found.file, ResourceFinder(search_path, *found.file));
   if (extension == ".urdf" || extension == ".xml") {

@@ -35,7 +35,7 @@ class UrdfVisuals {
         builder_(builder),
         meshes_(finder, builder),
         looks_(origin, finder, builder),
-        scripts_(finder) {}
+        scripts_(finder, builder) {}
 
   /// Adds everything to see of `link`, in its frame. `place` names the link in messages. Visuals without a
   /// material of theirs have what `of_gazebo` says, if anything.
