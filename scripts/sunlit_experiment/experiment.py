@@ -29,6 +29,7 @@ class Progress:
         self.status = progress.Status(total=poses, images_a_pose=images_a_pose)
         self.doing = None  # ours, once the nodes have done theirs
         self.activity = self.localising = None
+        self.told_at = time.monotonic()
         rospy.Subscriber("/evaluator/progress", UInt32, self._on_progress)
         rospy.Subscriber("/render/activity", Activity, self._on_activity)
         rospy.Subscriber("/evaluator/activity", Activity, self._on_localising)
@@ -37,7 +38,7 @@ class Progress:
         self.status.done = message.data
 
     def _on_activity(self, message):
-        self.activity = message
+        self.activity, self.told_at = message, time.monotonic()
 
     def _on_localising(self, message):
         self.localising = message
@@ -52,7 +53,7 @@ class Progress:
         elif self.localising:
             self.status.turn_to(self.localising.doing, self.localising.share, self.localising.seconds_left)
         else:
-            self.status.follow(self.activity, "render" in dead)
+            self.status.follow(self.activity, "render" in dead, time.monotonic() - self.told_at)
         return self.status
 
 

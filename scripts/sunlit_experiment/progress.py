@@ -8,6 +8,7 @@ from typing import Optional
 WINDOW_S = 60.0    # the pace is that of so long ago
 BASIS_POSES = 3    # no pace is told before so many poses
 BASIS_S = 2.0      # and so long a time
+SILENCE_S = 20.0   # a time left that was told longer ago is none
 BAR_CELLS = 30
 SMALLEST_BAR = 10
 
@@ -46,20 +47,22 @@ class Status:
     doing: str = "starting"
     share: float = math.nan           # of what it is doing, 0 to 1; NaN: unknown
     seconds_left: float = math.nan    # of what it is doing
+    silent_s: float = 0.0             # since share and time left were told
     done: Optional[int] = None        # poses; None: not told yet, since an earlier run may have done some
     total: int = 0
     images_a_pose: int = 1
     poses_a_second: float = math.nan
 
-    def turn_to(self, doing, share=math.nan, seconds_left=math.nan):
-        self.doing, self.share, self.seconds_left = doing, share, seconds_left
+    def turn_to(self, doing, share=math.nan, seconds_left=math.nan, silent_s=0.0):
+        self.doing, self.share, self.seconds_left, self.silent_s = doing, share, seconds_left, silent_s
 
-    def follow(self, activity, has_left):
-        """What the renderer says that it is at (sunlit/Activity; None: nothing yet), and whether it has left."""
+    def follow(self, activity, has_left, silent_s=0.0):
+        """What the renderer says that it is at (sunlit/Activity; None: nothing yet), whether it has left, and how long
+        ago it said so."""
         if has_left or (activity and activity.doing == "done"):
             self.turn_to("evaluating")
         elif activity and activity.doing in ("loading", "baking"):
-            self.turn_to(activity.doing, activity.share, activity.seconds_left)
+            self.turn_to(activity.doing, activity.share, activity.seconds_left, silent_s)
         elif self.done or (activity and activity.doing == "rendering"):
             self.turn_to("rendering")  # it waits for the evaluator again and again, in the midst of its work
         elif activity:
@@ -78,7 +81,9 @@ def duration(seconds):
 def _parts(status):
     """(activity, speed, time left); the latter two may be empty."""
     activity = status.doing + ("" if math.isnan(status.share) else f" {math.floor(100 * status.share)} %")
-    if not math.isnan(status.seconds_left):
+    if status.silent_s > SILENCE_S and not math.isnan(status.share):
+        activity += f", no news for {duration(status.silent_s)}"
+    elif not math.isnan(status.seconds_left):
         activity += f", {duration(status.seconds_left)} left"
     speed = left = ""
     if status.poses_a_second > 0 and status.done < status.total:  # so not where it is NaN

@@ -82,7 +82,10 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   const AreaLights baked(rays, parts.others), compact(rays, parts.of_compact);
   const std::vector<LampBeam> beams(parts.compact.begin(), parts.compact.end());
   const ShiningLights shining{baked, compact, beams};
-  constexpr double kLeaves = 0.2, kSampled = 0.4;
+  constexpr double kSampled = 0.4;
+  const bool any_leaves = std::any_of(traits.begin(), traits.end(),
+                                      [](const TriangleTraits& triangle) { return isLeaf(triangle.kind); });
+  const double leaf_share = any_leaves ? 0.2 : 0.0;
   auto data = std::make_unique<TransportData>();
   SceneSamples samples;
   std::mutex mutex;
@@ -90,7 +93,7 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   const auto note = [&](double share, double* part) {
     const std::lock_guard<std::mutex> lock(mutex);
     *part = share;
-    report(kLeaves * leaves + (kSampled - kLeaves) * sampled);
+    report(leaf_share * leaves + (kSampled - leaf_share) * sampled);
   };
   // Side by side, since some of the sampling is work for one thread.
   tbb::parallel_invoke(

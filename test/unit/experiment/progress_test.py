@@ -88,6 +88,16 @@ class Line(unittest.TestCase):
         baking = progress.Status(doing="baking", share=0.426, seconds_left=31.2, total=991)
         self.assertEqual(progress.line(baking), "baking 42 %, 31 s left: 0 of 991 poses (0 %)")
 
+    def test_a_time_left_that_was_told_long_ago_is_none(self):
+        status = progress.Status(total=4)
+        baking = SimpleNamespace(doing="baking", share=0.19, seconds_left=240.0)
+        status.follow(baking, False, 19.0)
+        self.assertEqual(progress.line(status), "baking 19 %, 4 min 00 s left: 0 of 4 poses (0 %)")
+        status.follow(baking, False, 75.2)
+        self.assertEqual(progress.line(status), "baking 19 %, no news for 1 min 15 s: 0 of 4 poses (0 %)")
+        status.follow(SimpleNamespace(doing="rendering", share=math.nan, seconds_left=math.nan), False, 75.2)
+        self.assertEqual(progress.line(status), "rendering: 0 of 4 poses (0 %)")
+
     def test_it_fits_into_any_terminal(self):
         for status in (rendering(412, poses_a_second=4.1), rendering(0), rendering(991), progress.Status(),
                        progress.Status(doing="baking", share=0.5, seconds_left=4000.0, total=10**7)):

@@ -236,6 +236,22 @@ TEST_F(TransportCache, TellsHowFarAnotherProcessIs) {
   EXPECT_EQ(told.back(), std::make_pair(0.5, 12.5));
 }
 
+TEST_F(TransportCache, TellsOfEachStageOfABake) {
+  std::vector<double> told = {0.0};
+  BakeListener listener;
+  listener.progress = [&](double share, double) { told.push_back(share); };
+  Transport::cached(worldOf(wallOnGround()).geometry, {}, folder_.string(), listener);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_LE(told.back(), 1.0 + 1e-9);
+  // Sampling takes 40 % of a bake, of which a fourth comes after walls; there are no leaves.
+  const auto between = [&](double low, double high) {
+    return std::any_of(told.begin(), told.end(), [&](double share) { return share > low && share < high; });
+  };
+  EXPECT_TRUE(between(0.25, 0.4));
+  EXPECT_TRUE(between(0.7, 0.74)) << "straight light";
+  EXPECT_TRUE(between(0.87, 0.89)) << "rooms";
+}
+
 TEST_F(TransportCache, EndsByWhatAListenerThrows) {
   struct Enough : std::exception {};
   const World world = worldOf(wallOnGround());

@@ -33,6 +33,9 @@ constexpr float kWalls = 0.8f;
 /// The same of surfaces of any kind: less than the reveal of a window sees.
 constexpr float kOutdoors = 0.4f;
 
+/// What rays to the sky, rooms and the first bounces take of the work, about; lamps and more take the rest.
+constexpr double kOfDirect = 0.55, kOfRooms = 0.25, kOfBounces = 0.1;
+
 /// Fewer were asked for to see just these.
 constexpr int kBouncesBeforeAll = 3;
 
@@ -69,7 +72,7 @@ class Gatherer {
     data->below.resize(count_);
     findStarts();
     const std::size_t packets = (starts_.size() + kPacket - 1) / kPacket;
-    const double direct_share = options_.bounces > 0 ? 0.7 : 1.0;
+    const double direct_share = options_.bounces > 0 ? kOfDirect : 1.0;
     tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
       lookAround(p * kPacket, data);
       step(direct_share / static_cast<double>(packets));
@@ -80,7 +83,7 @@ class Gatherer {
     const bool all = options_.bounces >= kBouncesBeforeAll;
     if (options_.bounces > 0) {
       const RoomBaker rooms(scene_, samples_, exchange_);
-      rooms.look(data);
+      rooms.look(data, [this](double share) { step(kOfRooms * share); });
       exchange_.useRooms();
       const SkyInGround in_ground(samples_, exchange_);
       SkyInGround::OfSamples mirrored = in_ground.find(*data);
@@ -91,8 +94,7 @@ class Gatherer {
       mirrored_ = std::move(mirrored.coefficients);
       exchange_.mirrored_sums = std::move(mirrored.sums);
     }
-    for (int bounce = 0; bounce < options_.bounces; ++bounce)
-      passOn(data, (1.0 - direct_share) / options_.bounces);
+    for (int bounce = 0; bounce < options_.bounces; ++bounce) passOn(data, kOfBounces / options_.bounces);
     if (all) exchange_.addLaterBounces(data);
     const int bounces = all ? Exchange::kAllBounces : options_.bounces;
     const LampBounces lamps(scene_, samples_, exchange_, bounces);

@@ -271,7 +271,7 @@ void MeshBuilder::split(std::uint32_t number) {
   addLeaf(child + 1);
 }
 
-void MeshBuilder::refine(const RefineLimits& limits, const std::function<void(double)>& progress) {
+void MeshBuilder::refine(const RefineLimits& limits, const Progress& progress) {
   for (std::uint32_t t = 0; t < geometry_.triangles.size(); ++t) {
     if (traits_[t].kind != TriangleKind::kLarge) continue;
     for (int side = 0; side < 2; ++side) {
@@ -281,12 +281,12 @@ void MeshBuilder::refine(const RefineLimits& limits, const std::function<void(do
   for (const Pass pass : {Pass::kVaried, Pass::kAll}) {
     while (!active_.empty()) {
       lookAroundFromNew();
-      progress(std::min(1.0, static_cast<double>(valid_) / static_cast<double>(limits.nodes)));
+      progress(kHalved * std::min(1.0, static_cast<double>(valid_) / static_cast<double>(limits.nodes)));
       halveMostUrgent(limits, pass);
     }
     active_.swap(left_);
   }
-  separateSides();
+  separateSides(progress);
   findHanging();
   WallSides(&mesh, &index.nodes, &hangs_between).separate();
 }
@@ -326,7 +326,7 @@ void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
 }
 
 /// Of walls and sheets that cells go through, or end at.
-void MeshBuilder::separateSides() {
+void MeshBuilder::separateSides(const Progress& progress) {
   const BakeScene scene{geometry_, rays_, traits_};
   std::vector<std::uint32_t> changed = WallCuts(scene, &mesh, &index.nodes).cut();
   const std::vector<SheetSides::Side> sides = SheetSides(scene, &mesh, &index.nodes).separate();
@@ -341,7 +341,7 @@ void MeshBuilder::separateSides() {
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   pullByOwnCells(changed);
-  lookAround(changed);
+  lookAroundAgain(changed, progress);
   looked_ = index.nodes.size();
 }
 

@@ -24,8 +24,9 @@ class MeshBuilder {
   /// Keeps references.
   MeshBuilder(const BakeScene& scene, const AreaLights& bright);
 
-  /// `progress` gets the share done, 0 … 1, about.
-  void refine(const RefineLimits& limits, const std::function<void(double)>& progress);
+  /// Gets the share done, 0 … 1, about.
+  using Progress = std::function<void(double)>;
+  void refine(const RefineLimits& limits, const Progress& progress);
 
   /// Cells and roots; roots of other than large triangles are no cells.
   LightMesh mesh;
@@ -34,6 +35,8 @@ class MeshBuilder {
   std::vector<std::array<std::uint32_t, 2>> hangs_between;
 
  private:
+  /// What is done of the work once cells are halved, and once they are cut at walls, about.
+  static constexpr double kHalved = 0.55, kCut = 0.75;
   /// Where cells that need halving are looked for.
   enum class Pass {
     kVaried,  ///< the first: where light differs between the corners
@@ -46,6 +49,7 @@ class MeshBuilder {
   void plant(std::uint32_t triangle, int side);
   void addLeaf(std::uint32_t cell);
   void lookAround(const std::vector<std::uint32_t>& nodes);
+  void lookAroundAgain(const std::vector<std::uint32_t>& nodes, const Progress& progress);
   void findRoom(const std::uint32_t* from, int count);
   void lookAroundFromNew();
   float variation(const LightMesh::Cell& cell) const;
@@ -55,7 +59,7 @@ class MeshBuilder {
   bool cut(const LightMesh::Cell& cell, float finest_m) const;
   void split(std::uint32_t cell);
   std::uint32_t middle(std::uint32_t a, std::uint32_t b);
-  void separateSides();
+  void separateSides(const Progress& progress);
   void pullByOwnCells(const std::vector<std::uint32_t>& nodes);
   void hang(std::uint32_t a, std::uint32_t b, const Eigen::Vector3f& middle);
   bool isBehindASheet(const MeshNode& node, const Eigen::Vector3f& middle) const;
