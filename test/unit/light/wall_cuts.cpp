@@ -143,6 +143,18 @@ TEST(WallCuts, LeaveCellsBesideAWallAsTheyAre) {
   EXPECT_EQ(ground.nodes.size(), 3u);
 }
 
+TEST(SheetSides, LetNodesThatASheetStandsOnLookAroundFromBesideIt) {
+  for (const float turned_rad : {0.0f, 0.8f, 1.6f, 2.4f}) {
+    Ground ground({{0.0f, 0.0f}, {0.3f, -0.4f}});
+    const Eigen::Vector2f along(std::cos(turned_rad), std::sin(turned_rad));
+    ground.addSheet(-along, along);
+    ground.with([&](const BakeScene& scene) { stepOffSheets(scene, 0, &ground.nodes); });
+    const Eigen::Vector2f from = ground.nodes[0].receiver().origins[0].head<2>();
+    EXPECT_GT(std::abs(along.x() * from.y() - along.y() * from.x()), 4e-3f) << turned_rad;
+    EXPECT_EQ(ground.nodes[1].receiver().origins[0], ground.nodes[1].position);
+  }
+}
+
 TEST(SheetSides, GiveEachSideItsNodeWhereASheetStandsOnThem) {
   // Two triangles, and the sheet along the edge between them.
   Ground ground({{0.0f, 0.0f}, {0.0f, 0.5f}, {-0.4f, 0.2f}, {0.4f, 0.2f}});
@@ -157,6 +169,27 @@ TEST(SheetSides, GiveEachSideItsNodeWhereASheetStandsOnThem) {
   for (const std::uint32_t n : ground.mesh.cells[0].corner)
     for (const std::uint32_t other : ground.mesh.cells[1].corner) EXPECT_NE(n, other);
   EXPECT_EQ(ground.mesh.cells[0].corner[2], 2u) << "whose cells are all on one side";
+}
+
+TEST(SheetSides, AreApartWhereTwoSheetsMeetOnANode) {
+  // Cells have others right opposite: rays between these may slip through between the sheets.
+  const Eigen::Vector2f x(0.1875f, 0.0f), y(0.0f, 0.16875f);
+  for (int i = 0; i < 20; ++i) {
+    const float far = static_cast<float>(i);
+    const Eigen::Vector2f corner(-3.0f - 0.1f * far, -2.7f - 0.07f * far);
+    std::vector<Eigen::Vector2f> corners = {corner};
+    for (const Eigen::Vector2f& to : {x, Eigen::Vector2f(0.5f * (x + y)), y, Eigen::Vector2f(0.5f * (y - x))})
+      corners.push_back(corner + to);
+    for (std::size_t k = 1; k <= 4; ++k) corners.push_back(2.0f * corner - corners[k]);
+    Ground ground(corners);
+    for (std::uint32_t k = 1; k <= 8; ++k) ground.mesh.cells.push_back({{0, k, k % 8 + 1}});
+    ground.addSheet(corner, {3.0f, corner.y()});
+    ground.addSheet({corner.x(), 2.7f}, corner);
+    ground.with([&](const BakeScene& scene) { SheetSides(scene, &ground.mesh, &ground.nodes).separate(); });
+    for (std::size_t inside = 0; inside < 2; ++inside)
+      for (std::size_t outside = 2; outside < 8; ++outside)
+        EXPECT_NE(ground.mesh.cells[inside].corner[0], ground.mesh.cells[outside].corner[0]) << i;
+  }
 }
 
 TEST(SheetSides, LeaveNodesThatASheetEndsAt) {

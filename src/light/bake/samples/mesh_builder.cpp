@@ -155,6 +155,7 @@ void MeshBuilder::findRoom(const std::uint32_t* from, int count) {
 void MeshBuilder::lookAroundFromNew() {
   std::vector<std::uint32_t> fresh(index.nodes.size() - looked_);
   std::iota(fresh.begin(), fresh.end(), static_cast<std::uint32_t>(looked_));
+  stepOffSheets({geometry_, rays_, traits_}, looked_, &index.nodes);
   lookAround(fresh);
   for (; looked_ < index.nodes.size(); ++looked_) valid_ += index.nodes[looked_].valid ? 1 : 0;
 }
@@ -222,9 +223,8 @@ bool MeshBuilder::cut(const LightMesh::Cell& cell, float finest_m) const {
   RayPacket packet;
   HitPacket hits;
   for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
-    const MeshNode& from = index.nodes[cell.corner[i % 3]];
-    const MeshNode& to = index.nodes[cell.corner[(i + 1) % 3]];
-    packet.set(i, from.aboveBumps(), to.aboveBumps() - from.aboveBumps(), i < 3);
+    const Eigen::Vector3f from = index.nodes[cell.corner[i % 3]].aboveBumps();
+    packet.set(i, from, index.nodes[cell.corner[(i + 1) % 3]].aboveBumps() - from, i < 3);
   }
   rays_.cast(packet, &hits);
   for (int i = 0; i < 3; ++i) {

@@ -32,6 +32,7 @@ void MeshNode::pullTowards(const Eigen::Vector3f& middle, float counts) {
 void MeshNode::pullNoMore() {
   inwards.setZero();
   pulled = 0.0f;
+  aside.setZero();
   room_m = 1e9f;
 }
 
@@ -39,7 +40,7 @@ Receiver MeshNode::receiver() const {
   constexpr float kOfRoom = 0.5f;
   const Eigen::Vector3f pull = inwards * (kInwards_m / std::max(pulled, kLeastPulled));
   const float most_m = kOfRoom * room_m, length_m = pull.norm();
-  const Eigen::Vector3f origin = position + (length_m > most_m ? most_m / length_m : 1.0f) * pull;
+  const Eigen::Vector3f origin = position + aside + (length_m > most_m ? most_m / length_m : 1.0f) * pull;
   Receiver receiver;
   receiver.origins.fill(origin);
   receiver.lifts.fill(Receiver::clearance_m(origin) * flat());

@@ -20,6 +20,7 @@ struct MeshNode {
   Eigen::Vector3f face;                               ///< Receiver::face
   Eigen::Vector3f inwards = Eigen::Vector3f::Zero();  ///< sum of vectors to middles of cells around
   float pulled = 0.0f;                                ///< sum of their lengths
+  Eigen::Vector3f aside = Eigen::Vector3f::Zero();    ///< off a sheet that it stands on, if any
   float room_m = 1e9f;                                ///< on that way, up to a wall
   float reach_m = 0.0f;                               ///< harmonic mean distance of what is seen
   float nearest_m = 0.0f;                             ///< the closest of it that is not as level as the place

@@ -1,6 +1,7 @@
 /// Nodes that sheets stand on.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include "light/bake/samples/triangle_kinds.h"
 
 namespace sunlit::light {
+
+/// Those of the nodes from number `first` on that a sheet stands on look around from beside it: from within
+/// its plane they would see nothing of it.
+void stepOffSheets(const BakeScene& scene, std::size_t first, std::vector<MeshNode>* nodes);
 
 /// A node where a sheet meets the ground has cells on both sides of it, and would give both the light of one.
 /// It becomes one node for each side.
@@ -30,7 +35,6 @@ class SheetSides {
     std::vector<std::uint32_t> sides;
   };
   void findCells();
-  static bool isSheet(const TriangleTraits& triangle);
   void findSides(Group* group) const;
   Eigen::Vector3f within(const CellAround& around) const;
 
