@@ -143,6 +143,19 @@ TEST(WallCuts, LeaveCellsBesideAWallAsTheyAre) {
   EXPECT_EQ(ground.nodes.size(), 3u);
 }
 
+TEST(WallCuts, PartTheSidesOfAWallOutdoorsButNotThoseOfASign) {
+  // The sky that each place sees, share by cosine and that times its mean direction.
+  const auto cut = [](const Eigen::Vector4f& before, const Eigen::Vector4f& behind) {
+    Ground ground({{-0.1f, -0.05f}, {0.1f, -0.05f}, {0.0f, 0.1f}});
+    ground.mesh.cells.push_back({{0, 1, 2}});
+    ground.addSheet({-1.0f, 0.0f}, {1.0f, 0.0f});
+    for (MeshNode& node : ground.nodes) node.open = node.position.y() < 0.0f ? before : behind;
+    return !ground.cut().empty();
+  };
+  EXPECT_TRUE(cut({0.0f, -0.22f, 0.3f, 0.5f}, {0.0f, 0.22f, 0.3f, 0.5f}));
+  EXPECT_FALSE(cut({0.0f, -0.1f, 0.55f, 0.8f}, {0.0f, 0.1f, 0.55f, 0.8f}));
+}
+
 TEST(SheetSides, LetNodesThatASheetStandsOnLookAroundFromBesideIt) {
   for (const float turned_rad : {0.0f, 0.8f, 1.6f, 2.4f}) {
     Ground ground({{0.0f, 0.0f}, {0.3f, -0.4f}});

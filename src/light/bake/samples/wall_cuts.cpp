@@ -10,12 +10,14 @@ namespace {
 constexpr float kRoom_m = 0.01f;  // between two sheets: there may be a room
 constexpr std::size_t kEdgesAtOnce = kPacket / 2;
 
-/// Whether light may differ much between two places: of a sign or a fence both sides see much sky, and the
-/// nodes for cuts there are better spent elsewhere. Rooms may differ by lamps.
+/// Whether light may differ much between two places: of a sign or a fence both sides see much the same sky,
+/// and the nodes for cuts there are better spent elsewhere. Rooms may differ by lamps.
 bool mayDiffer(const MeshNode& a, const MeshNode& b) {
-  constexpr float kRoom = 0.1f, kLeastPart = 0.35f;
+  constexpr float kRoom = 0.1f, kLeastPart = 0.35f, kMostApart = 0.7f;
   const auto [less, more] = std::minmax({a.open[3], b.open[3]});
-  return more < kRoom || less < kLeastPart * more;
+  // By where the open sky lies, too: of a high wall one side has the sun, the other one not.
+  return more < kRoom || less < kLeastPart * more ||
+         (a.open - b.open).norm() > kMostApart * 0.5f * (less + more);
 }
 
 template <typename Cuts>
