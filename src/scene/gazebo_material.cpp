@@ -217,9 +217,10 @@ void readPass(const Words& words, Reading& reading) {
   if (words[0] == "lighting" && words.size() > 1 && words[1] == "off")
     reading.plain_passes.insert(reading.passes);
   if ((words[0] == "colour_op" || words[0] == "colour_op_ex") && !multiplies(words)) {
-    const std::optional<LinearRgb> color = manualColor(words);
-    if (color) reading.unit_color = color;
-    if (!color) reading.material.lost.insert(words[0]);
+    if (const std::optional<LinearRgb> color = manualColor(words))
+      reading.unit_color = color;
+    else
+      reading.material.lost.insert(words[0]);
     if (reading.units_of_pass == 1) reading.plain_passes.insert(reading.passes);
   }
 }
@@ -256,10 +257,8 @@ void takeTextures(Reading& reading) {
 /// Without a texture, a unit's plain colour lies on all that there is.
 void takeUnitColor(Reading& reading) {
   if (!reading.unit_color) return;
-  if (reading.textures.empty())
-    reading.material.diffuse = reading.unit_color;
-  else
-    reading.material.lost.insert("colour_op_ex");
+  if (!reading.textures.empty()) reading.material.lost.insert("colour_op_ex");
+  if (reading.textures.empty()) reading.material.diffuse = reading.unit_color;
 }
 
 /// One line, or several written as one: a keyword may follow a brace.

@@ -319,6 +319,16 @@ void requireContent(const std::string& file) {
     throw std::runtime_error(file + ": this file is empty");
 }
 
+void addLamps(const aiScene& scene, const MeshFileContext& context, UpAxis up_axis,
+              const Eigen::Affine3d& up_from_file) {
+  if (up_axis != UpAxis::kAsDeclared)
+    warnOfLamps(scene, context.file, context.builder);
+  else if (context.gltf != nullptr)
+    context.gltf->addLights(up_from_file);
+  else
+    addColladaLamps(scene, up_from_file, context.builder);
+}
+
 }  // namespace
 
 void leaveCoordinates(bool of_own_material, MeshPart& part) {
@@ -343,7 +353,6 @@ std::vector<MeshPart> readMeshFile(const std::string& file, const MeshReading& r
   SceneBuilder unused(file);
   SceneBuilder& look_builder = reading.looks ? builder : unused;
   const std::string extension = extensionOf(file);
-  const bool collada = extension == ".dae";
   const bool gltf = extension == ".gltf" || extension == ".glb";
   Assimp::Importer importer;
   std::optional<GltfMaterials> gltf_materials;
@@ -376,19 +385,14 @@ std::vector<MeshPart> readMeshFile(const std::string& file, const MeshReading& r
   const std::vector<std::optional<MeshLook>> looks =
       reading.looks ? addMaterials(*scene, context) : plainLooks(*scene, unused);
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
-  const bool y_up = (gltf || collada) && reading.up_axis == UpAxis::kAsDeclared;
+  const bool y_up = (gltf || extension == ".dae") && reading.up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
   TriangleBudget budget;
   askFor(*scene->mRootNode, *scene, file, budget);
   Collector collector{*scene, looks, gltf, up_from_file};
   collector.collect(*scene->mRootNode, up_from_file);
   warnOfLosses(collector, file, builder);
-  if (reading.up_axis != UpAxis::kAsDeclared)
-    warnOfLamps(*scene, file, builder);
-  else if (gltf)
-    gltf_materials->addLights(up_from_file);
-  else
-    addColladaLamps(*scene, up_from_file, builder);
+  addLamps(*scene, context, reading.up_axis, up_from_file);
   if (!gltf) partBackToBack(collector.parts, look_builder);  // which says itself what is one-sided
   return std::move(collector.parts);
 }

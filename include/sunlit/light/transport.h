@@ -103,8 +103,8 @@ class Transport {
   Transport(const TransportOptions& options, std::unique_ptr<const TransportData> data);
   ~Transport();
 
-  /// The light of each node. Of lamps that stand in the scene, and of compactSources(), what surfaces pass on:
-  /// a share for each set of them that was baked together, as illumination(world, …) finds them.
+  /// The light of each node. Of lamps that stand in the scene, and of compactSources(), what surfaces pass
+  /// on: a share for each set of them that was baked together, as illumination(world, …) finds them.
   /// `visibility`, of the scene, finds where sun and moon shine into rooms, streets and tunnels; without it
   /// their light is spread over the patches of the sky around them before it is passed on.
   std::vector<NodeLight> relight(const sky::Daylight& day, const std::vector<float>& lamp_shares = {},
@@ -132,7 +132,7 @@ class Transport {
   TransportOptions options_;
   std::unique_ptr<const TransportData> data_;
   std::shared_ptr<const std::vector<float>> node_open_;
-  std::shared_ptr<const GlintNodes> glint_nodes_;                  ///< null: none
+  std::shared_ptr<const GlintNodes> glint_nodes_;                      ///< null: none
   std::shared_ptr<const std::vector<CompactSource>> compact_sources_;  ///< null: none
 };
 
