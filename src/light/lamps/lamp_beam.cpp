@@ -39,14 +39,22 @@ scene::Lamp lampOf(const BouncedLight& light) {
   return lamp;
 }
 
-scene::Lamp lampOf(const CompactSource& source, bool flat) {
-  scene::Lamp lamp =
-      flat ? lampOf(BouncedLight{source.position, source.normal, source.radius_m, source.intensity})
-           : scene::Lamp();
+bool liesFlat(const CompactSource& source) {
+  return !source.normal.isZero();
+}
+
+scene::Lamp lampOf(const CompactSource& source) {
+  if (liesFlat(source)) {
+    scene::Lamp lamp =
+        lampOf(BouncedLight{source.position, source.normal, source.radius_m, source.intensity});
+    lamp.radius_m = 0.0f;
+    return lamp;
+  }
+  scene::Lamp lamp;
   lamp.position = source.position;
   lamp.intensity = LinearRgb(source.intensity);
-  lamp.radius_m = flat ? 0.0f : source.radius_m;
-  lamp.housing_m = flat ? 0.0f : source.reach_m;
+  lamp.radius_m = source.radius_m;
+  lamp.housing_m = source.reach_m;
   return lamp;
 }
 
@@ -96,19 +104,18 @@ LampBeam::LampBeam(const scene::Lamp& lamp)
 LampBeam::LampBeam(const BouncedLight& light) : LampBeam(lampOf(light)) {
   ball_ = light.position + kRests * lamp_.radius_m * light.normal;
   shown_radius_m_ = light.radius_m;
-  bounced_ = true;
+  kind_ = Kind::kBounced;
 }
 
-LampBeam::LampBeam(const CompactSource& source) : LampBeam(lampOf(source, !source.normal.isZero())) {
+LampBeam::LampBeam(const CompactSource& source) : LampBeam(lampOf(source)) {
   shown_radius_m_ = source.radius_m;
-  flat_ = !source.normal.isZero();
-  shaped_ = !flat_;
-  if (flat_) {
+  if (liesFlat(source)) {
+    kind_ = source.round ? Kind::kEllipse : Kind::kRectangle;
     constexpr float kClear_m = 1e-3f;
     half_ = source.half;
-    round_ = source.round;
     ball_ = source.position + (source.uneven_m + kClear_m) * source.normal;  // rays end before it
   } else {
+    kind_ = Kind::kBody;
     shape_ = source.shape;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(shape_, Eigen::EigenvaluesOnly);
     least_shape_ = std::sqrt(std::max(axes.eigenvalues()[0], 0.0f));
@@ -171,7 +178,7 @@ void LampBeam::shares(const Points& points, float* shares) const {
             per_range_, least_m_, kNearest_m, lamp_.isSpot() ? cos_outer_ : -3.0f,
             lamp_.isSpot() ? per_cosine_ : 1.0f, lamp_.exponent == kSquare},
            points, shares);
-  if (!shaped_) return;
+  if (kind_ != Kind::kBody) return;
   for (std::size_t i = 0; i < points.count; ++i)
     shares[i] *= shape(Eigen::Vector3f(points.x[i], points.y[i], points.z[i]) - lamp_.position);
 }

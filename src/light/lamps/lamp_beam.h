@@ -31,18 +31,20 @@ class LampBeam {
   /// From ball() to a point of the unit disc across the way there, which the unit vector `towards` tells; of
   /// a flat source to one of its own.
   Eigen::Vector3f aside(const Eigen::Vector3f& towards, const Eigen::Vector2f& point) const {
-    if (flat_) return half_ * (round_ ? point : onSquare(point));
+    if (isFlat()) return half_ * (kind_ == Kind::kEllipse ? point : onSquare(point));
     return across(towards) * (lamp_.radius_m * point);
   }
   /// How large it shows in surfaces that mirror it.
   float shownRadius_m() const { return shown_radius_m_; }
-  bool isBounced() const { return bounced_; }
+  bool isBounced() const { return kind_ == Kind::kBounced; }
   /// Whether what mirrors by rays meets it there.
-  bool isSurface() const { return bounced_ || flat_ || shaped_; }
-  bool isFlat() const { return flat_; }
+  bool isSurface() const { return kind_ != Kind::kLamp; }
+  bool isFlat() const { return kind_ == Kind::kRectangle || kind_ == Kind::kEllipse; }
   /// Of a flat source: CompactSource::normal, and half of the rectangle that is as large.
   const Eigen::Vector3f& normal() const { return lamp_.direction; }
-  Eigen::Matrix<float, 3, 2> half() const { return (round_ ? std::sqrt(kPiFloat / 4.0f) : 1.0f) * half_; }
+  Eigen::Matrix<float, 3, 2> half() const {
+    return (kind_ == Kind::kEllipse ? std::sqrt(kPiFloat / 4.0f) : 1.0f) * half_;
+  }
   bool isSpot() const { return lamp_.isSpot(); }
   bool castsShadows() const { return lamp_.casts_shadows; }
 
@@ -80,6 +82,8 @@ class LampBeam {
   float brightest() const { return brightest_; }
 
  private:
+  enum class Kind { kLamp, kBounced, kRectangle, kEllipse, kBody };  ///< the last three: compact sources
+
   /// Of a lamp that is a point: where 1 / d² would grow without end.
   static constexpr float kNearest_m = 1e-3f;
   /// By distance, up to the range.
@@ -105,7 +109,7 @@ class LampBeam {
   scene::Lamp lamp_;
   Eigen::Vector3f ball_;
   float shown_radius_m_;
-  bool bounced_ = false, flat_ = false, round_ = false, shaped_ = false;
+  Kind kind_ = Kind::kLamp;
   Eigen::Matrix<float, 3, 2> half_ = Eigen::Matrix<float, 3, 2>::Zero();  ///< and this: as of CompactSource
   Eigen::Matrix3f shape_ = Eigen::Matrix3f::Identity();
   float least_shape_ = 1.0f;  ///< of shape(), to any side
@@ -147,7 +151,7 @@ inline float LampBeam::share(const Eigen::Vector3f& point) const {
   const Eigen::Vector3f away = point - lamp_.position;
   const float distance_m = away.norm();
   if (distance_m > lamp_.range_m) return 0.0f;
-  return (shaped_ ? shape(away) : 1.0f) * attenuation(distance_m) *
+  return (kind_ == Kind::kBody ? shape(away) : 1.0f) * attenuation(distance_m) *
          cone(lamp_.direction.dot(away) / std::max(distance_m, kNearest_m));
 }
 

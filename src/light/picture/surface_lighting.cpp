@@ -6,6 +6,7 @@
 
 #include "light/geometry/ray_list.h"
 #include "light/geometry/ray_start.h"
+#include "light/lamps/beams_of_light.h"
 #include "light/patches/least_disc.h"
 #include "light/picture/mirror/shining_list.h"
 #include "light/shading/direct_parts.h"
@@ -18,10 +19,9 @@ namespace {
 
 constexpr float kWhole = 0.999f;  ///< of a disc: all of it
 
-template <typename Light>
-const std::vector<Light>& allOf(const std::shared_ptr<const std::vector<Light>>& lights) {
-  static const std::vector<Light> none;
-  return lights ? *lights : none;
+const std::vector<scene::Lamp>& lampsOf(const Illumination& light) {
+  static const std::vector<scene::Lamp> none;
+  return light.lamps ? *light.lamps : none;
 }
 
 std::vector<bool> glowing(const SurfaceLighting::Subject& subject, const std::vector<scene::Lamp>& lamps) {
@@ -45,17 +45,16 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
       table_(subject.ready.table),
       scene_(subject.scene),
       light_(light),
-      glows_(glowing(subject, allOf(light.lamps))),
+      glows_(glowing(subject, lampsOf(light))),
       sun_(DiscVisibility::straight(light.day.sun(), leastDisc_lx(light.day), subject.visibility),
            {surfaces_, table_}),
       moon_(DiscVisibility::straight(light.day.moon(), leastDisc_lx(light.day), subject.visibility),
             {surfaces_, table_}),
       sun_glints_(glintsOf(light.day.sun(), subject, light)),
       moon_glints_(glintsOf(light.day.moon(), subject, light)),
-      lamps_({allOf(light.lamps), allOf(light.bounced), allOf(light.compact_sources)},
-             {surfaces_, scene_, subject.visibility,
-              mirrorsByRays(subject.visibility.fixedGeometry(),
-                            subject.in_mirrors ? Onlooker::kMirrors : Onlooker::kCamera)}),
+      lamps_(beamsOf(light), {surfaces_, scene_, subject.visibility,
+                              mirrorsByRays(subject.visibility.fixedGeometry(),
+                                            subject.in_mirrors ? Onlooker::kMirrors : Onlooker::kCamera)}),
       visibility_(subject.visibility),
       glass_(subject.visibility),
       broken_cloud_(light.day.hasBrokenCloud()) {}

@@ -245,11 +245,8 @@ void Exchange::passOnChanges(const Send& send, float dark, int most, OnItsWay* l
       const bool is_new = std::any_of(senders[block].begin(), senders[block].end(),
                                       [&](std::uint32_t other) { return changed[other] != 0; });
       if (!is_new) return;
-      for (std::size_t i = block * kSamplesOfTask; i < endOf(block); ++i) {
-        const Arrived further = receivedOf(changes, i);
-        (*light->has)[i].above += further.above;
-        (*light->has)[i].below += further.below;
-      }
+      for (std::size_t i = block * kSamplesOfTask; i < endOf(block); ++i)
+        (*light->has)[i] += receivedOf(changes, i);
     });
   }
 }

@@ -42,10 +42,7 @@ void store(const std::vector<Arrived>& arrived, BakedLamps* baked) {
 }
 
 void add(const std::vector<Arrived>& more, std::vector<Arrived>* all) {
-  for (std::size_t i = 0; i < all->size(); ++i) {
-    (*all)[i].above += more[i].above;
-    (*all)[i].below += more[i].below;
-  }
+  for (std::size_t i = 0; i < all->size(); ++i) (*all)[i] += more[i];
 }
 
 void storeGlow(const Eigen::Array3f& light, std::size_t sample, PassedOn* part) {

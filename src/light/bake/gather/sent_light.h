@@ -21,6 +21,11 @@ struct Sending {
 struct Arrived {
   Eigen::Array3f above = Eigen::Array3f::Zero(), below = Eigen::Array3f::Zero();
   Eigen::Array3f all() const { return above + below; }
+  Arrived& operator+=(const Arrived& more) {
+    above += more.above;
+    below += more.below;
+    return *this;
+  }
 };
 
 /// What samples have straight from lamps, or from what shines by itself.

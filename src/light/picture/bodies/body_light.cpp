@@ -8,6 +8,7 @@
 #include "light/bake/samples/transport_data.h"
 #include "light/geometry/corners.h"
 #include "light/geometry/ray_list.h"
+#include "light/lamps/beams_of_light.h"
 #include "light/patches/even_directions.h"
 #include "light/picture/bodies/body_shade.h"
 #include "light/picture/bodies/lamps_on_places.h"
@@ -202,13 +203,7 @@ void BodyLight::Implementation::addGlints(const Views& views, const Illumination
 
 void BodyLight::Implementation::addLamps(const Views& views, const Illumination& light,
                                          std::vector<Eigen::Array3f>* illuminance) {
-  std::vector<LampBeam> beams;
-  if (light.lamps)
-    for (const scene::Lamp& lamp : *light.lamps) beams.emplace_back(lamp);
-  if (light.bounced)
-    for (const BouncedLight& bounced : *light.bounced) beams.emplace_back(bounced);
-  if (light.compact_sources)
-    for (const CompactSource& source : *light.compact_sources) beams.emplace_back(source);
+  const std::vector<LampBeam> beams = beamsOf(light);
   if (beams.empty()) return;
   std::vector<LitPlace> places;
   for (const Met& met : views.met) places.push_back({met.origin, met.normal});

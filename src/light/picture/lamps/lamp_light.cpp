@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "light/geometry/ray_list.h"
 #include "light/geometry/ray_start.h"
@@ -76,6 +77,9 @@ Eigen::AlignedBox3f boxOf(const Tile& tile) {
 /// What rays of one lamp met in a tile, by pixel.
 class Met {
  public:
+  /// Of a row or column of the tile within `reach` of i.
+  static int first(int i, int reach) { return std::max(i - reach, 0); }
+  static int last(int i, int reach) { return std::min(i + reach, Surfaces::kTileSize - 1); }
   struct Count {
     int lit = 0, cast = 0;
     Count operator+(const Count& o) const { return {lit + o.lit, cast + o.cast}; }
@@ -112,8 +116,6 @@ class Met {
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  static int first(int i, int reach) { return std::max(i - reach, 0); }
-  static int last(int i, int reach) { return std::min(i + reach, Surfaces::kTileSize - 1); }
   std::array<std::array<Count, Surfaces::kTileSize>, Surfaces::kTileSize> at_ = {};
   /// Sums of all above and to the left of a pixel.
   std::array<std::array<Count, Surfaces::kTileSize + 1>, Surfaces::kTileSize + 1> before_ = {};
@@ -133,11 +135,8 @@ class Met {
 
 }  // namespace
 
-LampLight::LampLight(const Sources& sources, const Picture& picture)
-    : beams_(sources.lamps.begin(), sources.lamps.end()), picture_(picture), glass_(picture.visibility) {
-  for (const BouncedLight& bounced : sources.bounced) beams_.emplace_back(bounced);
-  for (const CompactSource& source : sources.compact) beams_.emplace_back(source);
-}
+LampLight::LampLight(std::vector<LampBeam> beams, const Picture& picture)
+    : beams_(std::move(beams)), picture_(picture), glass_(picture.visibility) {}
 
 /// Without those, weakest first, whose sum is at most half of kLeftOut everywhere in the tile.
 std::vector<std::uint32_t> LampLight::lampsOf(const Tile& tile, const std::vector<float>& other_lx) const {
@@ -273,8 +272,8 @@ void LampLight::smoothPenumbrae(const Tile& tile, const std::vector<Target*>& ta
     if (!isSure(*target) || !isMixed(*target)) continue;
     const Surface& surface = tile.surfaces[target->surface];
     int lit = 0, cast = 0, mixed = 0, others = 0, most = 0, least = kPoints;
-    for (int y = std::max(target->at.y - kReach, 0); y <= std::min(target->at.y + kReach, kSide - 1); ++y) {
-      for (int x = std::max(target->at.x - kReach, 0); x <= std::min(target->at.x + kReach, kSide - 1); ++x) {
+    for (int y = Met::first(target->at.y, kReach); y <= Met::last(target->at.y, kReach); ++y) {
+      for (int x = Met::first(target->at.x, kReach); x <= Met::last(target->at.x, kReach); ++x) {
         const Target* const other = at[static_cast<std::size_t>(y * kSide + x)];
         if (!other || other->cast != target->cast) continue;
         if (!isOneSurface(surface, tile.surfaces[other->surface])) continue;

@@ -8,7 +8,6 @@
 #include "light/lamps/lamp_beam.h"
 #include "light/picture/lamps/lit_rows.h"
 #include "light/shading/glass_sheets.h"
-#include "sunlit/light/lamps.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/scene/scene.h"
@@ -31,13 +30,8 @@ class LampLight {
     const Visibility& visibility;
     MirrorsByRays by_rays;  ///< which of the surfaces show by rays what they mirror
   };
-  struct Sources {
-    const std::vector<scene::Lamp>& lamps;
-    const std::vector<BouncedLight>& bounced;
-    const std::vector<CompactSource>& compact;
-  };
   /// Keeps references to all of `picture`.
-  LampLight(const Sources& sources, const Picture& picture);
+  LampLight(std::vector<LampBeam> beams, const Picture& picture);
 
   /// Adds what the lamps give to the luminance of each of the tile's surfaces, cd/m², without the air before
   /// it. `other_lx` is the illuminance of each by all other light: a hall's is no more than its windows let

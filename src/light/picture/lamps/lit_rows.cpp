@@ -89,6 +89,7 @@ inline __attribute__((always_inline)) float angleOf(float x) {
 struct Seen {
   alignas(64) float lx[LitRows::kBlock];  ///< on its plane for 1 cd of intensity; < 0: on its other side
   alignas(64) float x[LitRows::kBlock], y[LitRows::kBlock], z[LitRows::kBlock];  ///< unit, from there to it
+  alignas(64) float per_m[LitRows::kBlock];  ///< 1 / the distance of its middle
   alignas(64) float fresnel[LitRows::kBlock], lobe[LitRows::kBlock];
 };
 
@@ -126,12 +127,14 @@ inline __attribute__((always_inline)) void look(const Source& lamp, const Rows& 
     seen->x[k] = per_m * x;
     seen->y[k] = per_m * y;
     seen->z[k] = per_m * z;
+    seen->per_m[k] = per_m;
   }
 }
 
 /// The same of all patches of a panel; the way is that of its light in sum. Where `shares` are 0: nothing.
-inline __attribute__((always_inline)) void lookAtPanel(const Panel& panel, const Rows& rows,
+inline __attribute__((always_inline)) void lookAtPanel(const Source& lamp, const Rows& rows,
                                                        const float* shares, Seen* __restrict seen) {
+  const Panel& panel = *lamp.panel;
   constexpr std::size_t kBlock = LitRows::kBlock;
   alignas(64) float front[kBlock] = {}, behind[kBlock] = {}, sum_x[kBlock] = {}, sum_y[kBlock] = {},
                     sum_z[kBlock] = {};
@@ -166,28 +169,28 @@ inline __attribute__((always_inline)) void lookAtPanel(const Panel& panel, const
     seen->x[k] = per * x;
     seen->y[k] = per * y;
     seen->z[k] = per * z;
+    const float way_x = lamp.position.x() - rows[kPosition][k],
+                way_y = lamp.position.y() - rows[kPosition + 1][k],
+                way_z = lamp.position.z() - rows[kPosition + 2][k];
+    seen->per_m[k] = 1.0f / std::max(std::sqrt(way_x * way_x + way_y * way_y + way_z * way_z), 1e-6f);
   }
 }
 
 /// How much of that they mirror.
 inline __attribute__((always_inline)) void mirror(const Source& lamp, const Rows& rows,
                                                   Seen* __restrict seen) {
-  const float lamp_x = lamp.position.x(), lamp_y = lamp.position.y(), lamp_z = lamp.position.z();
   const float radius_m = lamp.shown_radius_m, at_least = lamp.shown_at_least;
   for (std::size_t k = 0; k < LitRows::kBlock; ++k) {
     const auto dot = [&](std::size_t row) {
       return rows[row][k] * seen->x[k] + rows[row + 1][k] * seen->y[k] + rows[row + 2][k] * seen->z[k];
     };
-    const float x = lamp_x - rows[kPosition][k], y = lamp_y - rows[kPosition + 1][k],
-                z = lamp_z - rows[kPosition + 2][k];
-    const float per_m = 1.0f / std::max(std::sqrt(x * x + y * y + z * z), 1e-6f);
     const float n_l = dot(kNormal), v_l = dot(kToEye), n_v = rows[kNormalEye][k];
     // The half vector is (l + v) / (2 v_h).
     const float v_h = std::sqrt(std::min(std::max(0.5f * (1.0f + v_l), 1e-6f), 1.0f));
     const float n_h = std::min(std::max((n_l + n_v) / (2.0f * v_h), 0.0f), 1.0f);
     const Ggx<float> facets(rows[kAlpha][k]);
     seen->fresnel[k] = schlick(v_h);
-    seen->lobe[k] = facets.meanDistribution(n_h, v_h, angleOf(radius_m * per_m)) *
+    seen->lobe[k] = facets.meanDistribution(n_h, v_h, angleOf(radius_m * seen->per_m[k])) *
                     facets.visibility(std::max(n_l, 0.0f), std::max(n_v, 1e-3f)) *
                     std::max(rows[kByLobe][k], at_least);
   }
@@ -234,7 +237,7 @@ std::size_t reflectAll(const Source& lamp, const Rows& rows, const LitRows::Arri
     target.blocks[count++] = static_cast<std::uint32_t>(begin);
     const Rows block{rows.values + begin, rows.stride};
     if (lamp.panel)
-      lookAtPanel(*lamp.panel, block, chosen, &seen);
+      lookAtPanel(lamp, block, chosen, &seen);
     else
       look(lamp, block, chosen, &seen);
     mirror(lamp, block, &seen);
