@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "scene/clear_coat.h"
 #include "scene/color.h"
 #include "scene/gltf_json.h"
 
@@ -86,6 +87,7 @@ class LookReader {
     readNormalAndOcclusion();
     readAlpha();
     readThrough();
+    readClearCoat();
     if (has(child(source_, "extensions"), "KHR_materials_unlit")) {
       lost_.push_back("unlit: lit as matt paint");
       material.roughness = 1.0f;
@@ -308,6 +310,20 @@ class LookReader {
     material.base_color.value *= left.value.pow(depth);
   }
 
+  void readClearCoat() {
+    const json& coat = extension(source_, "KHR_materials_clearcoat");
+    const float factor = coat.value("clearcoatFactor", 0.0f);
+    if (!(factor > 0.0f)) return;
+    if (!addClearCoat({factor, coat.value("clearcoatRoughnessFactor", 0.0f)}, &look_.material)) {
+      lost_.push_back(kLostCoat);
+      return;
+    }
+    if (has(coat, "clearcoatTexture") || has(coat, "clearcoatRoughnessTexture"))
+      lost_.push_back("a texture of its clear coat: its factors count alone");
+    if (!sameTexture(child(coat, "clearcoatNormalTexture"), child(source_, "normalTexture")))
+      lost_.push_back("normals of its clear coat: those of what it covers");
+  }
+
   void nameTheRest() {
     const json& extensions = child(source_, "extensions");
     // Where it is 0, which it is unless told, the extension changes nothing.
@@ -317,7 +333,6 @@ class LookReader {
                       [](const json& one) { return one.is_number() && one.get<float>() > 0.0f; }))
         lost_.push_back(what);
     };
-    name("KHR_materials_clearcoat", "clearcoatFactor", "a clear coat: without it");
     name("KHR_materials_sheen", "sheenColorFactor", "sheen: without it");
     name("KHR_materials_volume", "thicknessFactor",
          look_.material.glass > 0.0f ? "a volume: as if it were hollow, its surface coloured as its depth"

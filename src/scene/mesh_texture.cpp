@@ -18,7 +18,20 @@ Found foundAs(const std::string& name, const MeshFileContext& context) {
   return found;
 }
 
+Wrap wrapOf(const aiMaterial& source, const char* key, aiTextureType type) {
+  int mode = aiTextureMapMode_Wrap;
+  source.Get(key, static_cast<unsigned>(type), 0, mode);
+  return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? Wrap::kClamp
+         : mode == aiTextureMapMode_Mirror                                ? Wrap::kMirror
+                                                                          : Wrap::kRepeat;
+}
+
 }  // namespace
+
+Wraps wrapsOf(const aiMaterial& source, aiTextureType type) {
+  return {wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type),
+          wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type)};
+}
 
 std::optional<std::string> textureFile(const std::string& name, const MeshFileContext& context) {
   Found found = foundAs(name, context);

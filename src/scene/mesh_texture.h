@@ -21,4 +21,7 @@ int addMeshTexture(const std::string& name, const aiScene& scene, const MeshFile
 /// GetName(), which in Assimp 5.0 is not for constant materials.
 std::string nameOf(const aiMaterial& source);
 
+/// How the texture of that type goes on beyond its edges.
+Wraps wrapsOf(const aiMaterial& source, aiTextureType type);
+
 }  // namespace sunlit::scene

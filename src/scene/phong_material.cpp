@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/clear_coat.h"
 #include "scene/collada_text.h"
 #include "scene/color.h"
 #include "scene/mesh_file.h"
@@ -42,19 +43,6 @@ float opacityOf(const aiMaterial& source) {
   float opacity = 1.0f;
   source.Get(AI_MATKEY_OPACITY, opacity);
   return opacity > 0.0f && opacity < 1.0f ? opacity : 1.0f;
-}
-
-Wrap wrapOf(const aiMaterial& source, const char* key, aiTextureType type) {
-  int mode = aiTextureMapMode_Wrap;
-  source.Get(key, static_cast<unsigned>(type), 0, mode);
-  return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? Wrap::kClamp
-         : mode == aiTextureMapMode_Mirror                                ? Wrap::kMirror
-                                                                          : Wrap::kRepeat;
-}
-
-Wraps wrapsOf(const aiMaterial& source, aiTextureType type) {
-  return {wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type),
-          wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type)};
 }
 
 /// Which set of coordinates the texture of `type` wants; of COLLADA the first number in what the effect calls
@@ -316,6 +304,10 @@ class PhongReader {
     // The least of what is no number at all.
     material_.roughness = std::fmin(std::fmax(material_.roughness, Material::kSmoothest), 1.0f);
     material_.metalness = std::fmin(std::fmax(material_.metalness, 0.0f), 1.0f);
+    ClearCoat coat;
+    source_.Get("$mat.clearcoat.factor", 0, 0, coat.factor);
+    source_.Get("$mat.clearcoat.roughnessFactor", 0, 0, coat.roughness);
+    if (!addClearCoat(coat, &material_)) warnOf(kLostCoat);
   }
 
   /// Of refraction. 1 is what there is where a file says nothing.
@@ -339,8 +331,10 @@ class PhongReader {
     const bool is_glass = model == 4 || model == 6 || model == 7 || model == 9;
     const bool mirrors = model == 3 || model == 5 || model == 8;
     aiColor4D specular(0.0f, 0.0f, 0.0f, 1.0f), filter(1.0f, 1.0f, 1.0f, 1.0f);
+    aiColor4D sheen(0.0f, 0.0f, 0.0f, 1.0f);
     source_.Get(AI_MATKEY_COLOR_SPECULAR, specular);
     source_.Get(AI_MATKEY_COLOR_TRANSPARENT, filter);
+    source_.Get("$clr.sheen.factor", 0, 0, sheen);
     if (model == 0) warnOf(illum + ", a colour without any light: lit like any other");
     if (is_glass && opacity >= 1.0f) warnOf(illum + ", glass: drawn as opaque");
     if (mirrors && material_.metalness <= 0.0f && !specular.IsBlack())
@@ -353,11 +347,7 @@ class PhongReader {
     const std::string ambient = pictureOf(source_, aiTextureType_AMBIENT);
     if (!ambient.empty() && ambient != pictureOf(source_, aiTextureType_DIFFUSE))
       warnOf("map_Ka, a picture of ambient light: light is computed");
-    float coat = 0.0f;
-    aiColor4D sheen(0.0f, 0.0f, 0.0f, 1.0f);
-    source_.Get("$mat.clearcoat.factor", 0, 0, coat);
-    source_.Get("$clr.sheen.factor", 0, 0, sheen);
-    if (coat > 0.0f || !sheen.IsBlack()) warnOf("a clear coat or a sheen: without it");
+    if (!sheen.IsBlack()) warnOf("a sheen: without it");
   }
 
   /// Of COLLADA: a share, of a colour.

@@ -308,6 +308,59 @@ TEST_F(GltfMaterial, IndexAndSpecularSetWhatADielectricReflects) {
   EXPECT_EQ(dull.materials[0].dielectric_grazing, 0.5f);
 }
 
+// Paint and plastics have no gloss beneath a coat of the same index, metal has its own.
+TEST_F(GltfMaterial, ClearCoatsAreTheGlossOfWhatMirrorsLess) {
+  const auto coated = [&](const std::string& base, const std::string& coat, const std::string& more = "") {
+    return loaded("{\"pbrMetallicRoughness\":{" + base + "},\"extensions\":{\"KHR_materials_clearcoat\":{" +
+                  coat + "}" + more + "}}");
+  };
+  const std::string paint = "\"metallicFactor\":0,\"roughnessFactor\":0.75";
+  const Scene lacquer = coated(paint, "\"clearcoatFactor\":1,\"clearcoatRoughnessFactor\":0.125");
+  EXPECT_EQ(warningsOf(lacquer), "");
+  EXPECT_EQ(lacquer.materials[0].roughness, 0.125f);
+  EXPECT_EQ(lacquer.materials[0].dielectric.value[0], 0.04f);
+  EXPECT_EQ(coated(paint, "\"clearcoatFactor\":1").materials[0].roughness, Material::kSmoothest);
+  EXPECT_EQ(coated(paint, "").materials[0].roughness, 0.75f);
+  // Its maps are those of what it covers.
+  const Scene mapped = coated(paint + ",\"metallicRoughnessTexture\":{\"index\":1}", "\"clearcoatFactor\":1");
+  EXPECT_FALSE(mapped.materials[0].roughness_map.given());
+  // The gloss of the coat alone.
+  const Scene matt =
+      coated(paint, "\"clearcoatFactor\":0.75", ",\"KHR_materials_specular\":{\"specularFactor\":0}");
+  EXPECT_EQ(warningsOf(matt), "");
+  EXPECT_FLOAT_EQ(matt.materials[0].dielectric.value[1], 0.03f);
+  EXPECT_EQ(matt.materials[0].dielectric_grazing, 0.75f);
+
+  const auto expectNone = [&](const Scene& scene) {
+    EXPECT_NE(warningsOf(scene).find("a clear coat that mirrors less than what it covers: without it"),
+              std::string::npos)
+        << warningsOf(scene);
+    EXPECT_EQ(scene.materials[0].roughness, 0.75f);
+  };
+  expectNone(coated(paint, "\"clearcoatFactor\":0.375"));
+  const std::string metal = "\"metallicFactor\":1,\"roughnessFactor\":0.75,\"baseColorFactor\":";
+  expectNone(coated(metal + "[0.5,0.5,0.5,1]", "\"clearcoatFactor\":1"));
+  const Scene black = coated(metal + "[0.02,0.02,0.02,1]", "\"clearcoatFactor\":1");
+  EXPECT_EQ(warningsOf(black), "");
+  EXPECT_EQ(black.materials[0].metalness, 0.0f);
+  EXPECT_EQ(black.materials[0].roughness, Material::kSmoothest);
+}
+
+TEST_F(GltfMaterial, WhatAClearCoatLosesIsNamed) {
+  const auto warnings = [&](const std::string& coat, const std::string& normals = "") {
+    return warningsOf(loaded("{\"pbrMetallicRoughness\":{\"metallicFactor\":0}," + normals +
+                             "\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1" + coat +
+                             "}}}"));
+  };
+  const std::string normals = "\"normalTexture\":{\"index\":1},", texture = "a texture of its clear coat",
+                    bumps = "normals of its clear coat: those of what it covers";
+  EXPECT_NE(warnings(",\"clearcoatTexture\":{\"index\":0}").find(texture), std::string::npos);
+  EXPECT_NE(warnings(",\"clearcoatRoughnessTexture\":{\"index\":0}").find(texture), std::string::npos);
+  EXPECT_NE(warnings("", normals).find(bumps), std::string::npos) << warnings("", normals);
+  EXPECT_NE(warnings(",\"clearcoatNormalTexture\":{\"index\":1}").find(bumps), std::string::npos);
+  EXPECT_EQ(warnings(",\"clearcoatNormalTexture\":{\"index\":1}", normals).find(bumps), std::string::npos);
+}
+
 TEST_F(GltfMaterial, WhatIsNotRenderedIsNamedInOneLine) {
   const Scene scene = loaded(
       "{\"name\":\"lacquer\",\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1},"
@@ -316,8 +369,9 @@ TEST_F(GltfMaterial, WhatIsNotRenderedIsNamedInOneLine) {
       "\"extensionsUsed\":[\"KHR_materials_clearcoat\",\"EXT_something\"],");
   const std::string warnings = warningsOf(scene);
   EXPECT_EQ(scene.warnings.size(), 2u) << warnings;
-  for (const char* part : {"3 features of materials are not rendered", "lacquer: a clear coat: without it",
-                           "sheen: without it", "unlit: lit as matt paint", "EXT_something"})
+  for (const char* part :
+       {"3 features of materials are not rendered", "lacquer: a clear coat that mirrors less",
+        "sheen: without it", "unlit: lit as matt paint", "EXT_something"})
     EXPECT_NE(warnings.find(part), std::string::npos) << part << " in " << warnings;
 }
 

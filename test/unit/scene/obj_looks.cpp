@@ -98,6 +98,15 @@ TEST_F(ObjLooks, NumbersMultiplyTheirPictures) {
   EXPECT_TRUE((glowOf("Ke 1 1 1\nmap_Ke gone.png\n") == 0.0f).all()) << "not all over";
 }
 
+TEST_F(ObjLooks, ClearCoatsAreTheGlossOfPaint) {
+#ifdef SUNLIT_OLD_ASSIMP
+  GTEST_SKIP() << "Assimp 5.0 does not know Pc";
+#endif
+  const Scene scene = lookOf("Pr 0.75\nPc 1\nPcr 0.25\n");
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+  EXPECT_EQ(materialOf(scene).roughness, 0.25f);
+}
+
 TEST_F(ObjLooks, WithoutCoordinatesAreTheMeanOfTheirPicture) {
   image::Rgba8Image picture(2, 1);
   picture.data = {255, 0, 0, 255, 0, 255, 0, 255};
@@ -127,7 +136,8 @@ TEST_F(ObjLooks, WhatMeansSomethingAndIsNotRenderedIsNamed) {
       {"map_Kd t.png\nmap_Ka a.png\n", "map_Ka"},
       {"map_Ka a.png\n", "map_Ka"},
 #ifndef SUNLIT_OLD_ASSIMP
-      {"Pc 0.5\n", "a clear coat"},
+      {"Pc 0.25\n", "a clear coat"},
+      {"Pc 1\nPm 1\n", "a clear coat"},
 #endif
   };
   for (const auto& [lines, name] : lost) expectOneWarning(lines, name);
