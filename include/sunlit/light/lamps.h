@@ -75,17 +75,19 @@ struct BouncedLight {
 };
 
 /// A small surface that shines by itself, which is a point but for its shadows: a flat one that shines to one
-/// side, or a body that shines to all.
+/// side, or a body that shines to all; or a straight tube.
 struct CompactSource {
   Eigen::Vector3f position;  ///< its middle, m in `map`
   Eigen::Array3f intensity;  ///< cd, where it is brightest: of a flat one straight before it
-  Eigen::Vector3f normal;    ///< unit, of a flat one; zero: a body
+  Eigen::Vector3f normal;    ///< unit, of a flat one; zero: a body, or a tube
   Eigen::Matrix3f shape;  ///< of a body: intensity to the unit vector w is √(wᵀ shape w) of the brightest
-  Eigen::Matrix<float, 3, 2> half;  ///< of a flat one: half its length and half its width, at right angles
-  bool round;                       ///< of a flat one: an ellipse of that size, else a rectangle
-  float radius_m;                   ///< of a disc or ball that is as large to see, > 0
-  float reach_m;                    ///< how far its surface reaches from `position`
-  float uneven_m;                   ///< of a flat one: how far its surface is off its plane
+  /// Of a flat one: half its length and half its width, at right angles. Of a tube: half its length, and
+  /// zero; of a body zero.
+  Eigen::Matrix<float, 3, 2> half;
+  bool round;      ///< of a flat one: an ellipse of that size, else a rectangle
+  float radius_m;  ///< of a disc or ball that is as large to see, > 0
+  float reach_m;   ///< how far its surface reaches from `position`
+  float uneven_m;  ///< of a flat one: how far its surface is off its plane; of a tube: off its axis
 };
 
 /// Groups whose light by way of surfaces is baked apart; what is beyond is baked, and switched, as one.

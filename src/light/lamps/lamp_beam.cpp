@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "light/lamps/tube.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/vector_clones.h"
 
@@ -39,8 +40,14 @@ scene::Lamp lampOf(const BouncedLight& light) {
   return lamp;
 }
 
+/// Rays that look for a surface end so far before it.
+constexpr float kClear_m = 1e-3f;
+
 bool liesFlat(const CompactSource& source) {
   return !source.normal.isZero();
+}
+bool isLong(const CompactSource& source) {
+  return !liesFlat(source) && !source.half.isZero();
 }
 
 scene::Lamp lampOf(const CompactSource& source) {
@@ -53,8 +60,8 @@ scene::Lamp lampOf(const CompactSource& source) {
   scene::Lamp lamp;
   lamp.position = source.position;
   lamp.intensity = LinearRgb(source.intensity);
-  lamp.radius_m = source.radius_m;
-  lamp.housing_m = source.reach_m;
+  lamp.radius_m = isLong(source) ? source.uneven_m : source.radius_m;
+  lamp.housing_m = isLong(source) ? source.uneven_m + kClear_m : source.reach_m;
   return lamp;
 }
 
@@ -111,9 +118,12 @@ LampBeam::LampBeam(const CompactSource& source) : LampBeam(lampOf(source)) {
   shown_radius_m_ = source.radius_m;
   if (liesFlat(source)) {
     kind_ = source.round ? Kind::kEllipse : Kind::kRectangle;
-    constexpr float kClear_m = 1e-3f;
     half_ = source.half;
     ball_ = source.position + (source.uneven_m + kClear_m) * source.normal;  // rays end before it
+  } else if (isLong(source)) {
+    kind_ = Kind::kTube;
+    half_ = source.half;
+    least_shape_ = 0.0f;  // none beyond its ends
   } else {
     kind_ = Kind::kBody;
     shape_ = source.shape;
@@ -122,10 +132,34 @@ LampBeam::LampBeam(const CompactSource& source) : LampBeam(lampOf(source)) {
   }
 }
 
+Eigen::Vector3f LampBeam::onTube(const Eigen::Vector3f& towards, const Eigen::Vector2f& point) const {
+  const Eigen::Vector3f axis = half_.col(0).normalized(), inwards = towards - axis.dot(towards) * axis;
+  const float size = inwards.norm();
+  if (!(size > 0.0f)) return half_.col(0) * point.x();  // seen along it: nothing of it is
+  return half_.col(0) * point.x() + inwards.cross(axis) * (lamp_.radius_m * point.y() / size) -
+         inwards * (lamp_.housing_m / size);
+}
+
+Eigen::Vector3f LampBeam::lightOfTube(const Eigen::Vector3f& point) const {
+  const float half_m = half_.col(0).norm();
+  const Eigen::Vector3f axis = half_.col(0) / half_m, way = lamp_.position - point;
+  const float along_m = way.dot(axis);
+  const Eigen::Vector3f nearest = way - along_m * axis;
+  const float away_m = std::max(nearest.norm(), least_m_);
+  const TubeLight light = tubeLight(away_m, along_m - half_m, along_m + half_m);
+  return (light.across / away_m * nearest + light.along * axis) / (2.0f * half_m);
+}
+
+Eigen::Vector3f LampBeam::towards(const Eigen::Vector3f& point) const {
+  return (isTube() ? lightOfTube(point) : Eigen::Vector3f(lamp_.position - point)).normalized();
+}
+
 LampBeam::Bounds LampBeam::within(const Eigen::AlignedBox3f& box) const {
   const Eigen::Vector3f middle = box.center() - lamp_.position;
   const float radius = 0.5f * box.diagonal().norm(), distance = middle.norm();
-  const float nearest = box.exteriorDistance(lamp_.position), farthest = distance + radius;
+  const float nearest =
+      std::max(box.exteriorDistance(lamp_.position) - (isTube() ? half_.norm() : 0.0f), 0.0f);
+  const float farthest = distance + radius;
   if (nearest > lamp_.range_m) return {0.0f, 0.0f};
   if (lamp_.isSpot() && distance > radius) {
     // Most boxes see nothing of most lamps: known by the cosine of the angle to the axis less the ball's.
@@ -178,6 +212,10 @@ void LampBeam::shares(const Points& points, float* shares) const {
             per_range_, least_m_, kNearest_m, lamp_.isSpot() ? cos_outer_ : -3.0f,
             lamp_.isSpot() ? per_cosine_ : 1.0f, lamp_.exponent == kSquare},
            points, shares);
+  if (isTube()) {
+    for (std::size_t i = 0; i < points.count; ++i)
+      shares[i] = lightOfTube({points.x[i], points.y[i], points.z[i]}).norm();
+  }
   if (kind_ != Kind::kBody) return;
   for (std::size_t i = 0; i < points.count; ++i)
     shares[i] *= shape(Eigen::Vector3f(points.x[i], points.y[i], points.z[i]) - lamp_.position);

@@ -18,7 +18,7 @@ class LampBeam {
   explicit LampBeam(const scene::Lamp& lamp);
   /// Gives I cos / (r² / 4 + d²), the cosine that of the angle to the disc's normal, r its radius.
   explicit LampBeam(const BouncedLight& light);
-  /// The same of a flat one; of a body I / d², by its shape.
+  /// The same of a flat one; of a body I / d², by its shape; of a tube that of a line (tubeLight()).
   explicit LampBeam(const CompactSource& source);
 
   const Eigen::Vector3f& position() const { return lamp_.position; }
@@ -29,10 +29,16 @@ class LampBeam {
   /// What lies nearer, such as its bulb, is part of it and hides nothing.
   float spared_m() const { return std::max(lamp_.radius_m, lamp_.housing_m); }
   /// From ball() to a point of the unit disc across the way there, which the unit vector `towards` tells; of
-  /// a flat source to one of its own.
+  /// a flat source to one of its own, of a tube to one before the side of it that is seen.
   Eigen::Vector3f aside(const Eigen::Vector3f& towards, const Eigen::Vector2f& point) const {
+    if (isTube()) return onTube(towards, onSquare(point));
     if (isFlat()) return half_ * (kind_ == Kind::kEllipse ? point : onSquare(point));
     return across(towards) * (lamp_.radius_m * point);
+  }
+  /// What is aside() on the other side of the middle of a flat source or a tube.
+  Eigen::Vector3f turnedOver(const Eigen::Vector3f& aside) const {
+    if (!isTube()) return -aside;
+    return aside - half_.col(0) * (2.0f * half_.col(0).dot(aside) / half_.col(0).squaredNorm());
   }
   /// How large it shows in surfaces that mirror it.
   float shownRadius_m() const { return shown_radius_m_; }
@@ -40,6 +46,10 @@ class LampBeam {
   /// Whether what mirrors by rays meets it there.
   bool isSurface() const { return kind_ != Kind::kLamp; }
   bool isFlat() const { return kind_ == Kind::kRectangle || kind_ == Kind::kEllipse; }
+  bool isTube() const { return kind_ == Kind::kTube; }
+  /// Of a tube: from its middle to an end, along its axis; and how thick it is.
+  Eigen::Vector3f halfLength() const { return half_.col(0); }
+  float tubeRadius_m() const { return least_m_; }
   /// Of a flat source: CompactSource::normal, and half of the rectangle that is as large.
   const Eigen::Vector3f& normal() const { return lamp_.direction; }
   Eigen::Matrix<float, 3, 2> half() const {
@@ -50,6 +60,9 @@ class LampBeam {
 
   /// Illuminance of a plane at `point` that faces the lamp, lx. Within the lamp's ball: as on its surface.
   Eigen::Array3f at(const Eigen::Vector3f& point) const { return lamp_.intensity.value * share(point); }
+
+  /// Unit vector from there to where that light comes from in sum.
+  Eigen::Vector3f towards(const Eigen::Vector3f& point) const;
 
   /// Between these lies the largest channel of at() of all points of a box, whatever is in the way.
   struct Bounds {
@@ -82,7 +95,7 @@ class LampBeam {
   float brightest() const { return brightest_; }
 
  private:
-  enum class Kind { kLamp, kBounced, kRectangle, kEllipse, kBody };  ///< the last three: compact sources
+  enum class Kind { kLamp, kBounced, kRectangle, kEllipse, kBody, kTube };  ///< from the third on: compact
 
   /// Of a lamp that is a point: where 1 / d² would grow without end.
   static constexpr float kNearest_m = 1e-3f;
@@ -100,6 +113,9 @@ class LampBeam {
     const float along = edge * std::atan(shorter / longer) * (4.0f / kPiFloat);
     return steep ? Eigen::Vector2f(along, edge) : Eigen::Vector2f(edge, along);
   }
+  Eigen::Vector3f onTube(const Eigen::Vector3f& towards, const Eigen::Vector2f& point) const;
+  /// Of a tube at `point`: share(), as a vector towards it.
+  Eigen::Vector3f lightOfTube(const Eigen::Vector3f& point) const;
   /// Of a body: by the way from it, of any length.
   float shape(const Eigen::Vector3f& away) const {
     const float square = away.squaredNorm();
@@ -149,6 +165,7 @@ inline float LampBeam::cone(float cosine) const {
 
 inline float LampBeam::share(const Eigen::Vector3f& point) const {
   const Eigen::Vector3f away = point - lamp_.position;
+  if (isTube()) return lightOfTube(point).norm();
   const float distance_m = away.norm();
   if (distance_m > lamp_.range_m) return 0.0f;
   return (kind_ == Kind::kBody ? shape(away) : 1.0f) * attenuation(distance_m) *

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "light/picture/bodies/body_light.h"
-#include "light/picture/lamps/lit_rows.h"
 #include "night_scene.h"
 #include "shining_scene.h"
 
@@ -203,29 +202,14 @@ TEST(CompactSources, OfAPanelLightWhatIsBesideItAsThePolygonDoes) {
                             0.4f,
                             0.64f,
                             0.0f};
-  scene::Scene scene;
-  scene.materials = {paint(1.0f)};
-  scene.materials[0].dielectric = LinearRgb(0.0f, 0.0f, 0.0f);  // no more than matt
-  scene.materials[0].dielectric_grazing = 0.0f;
   Tile tile;
   for (const float away : {0.15f, 0.3f, 0.6f, 1.5f, 4.0f, 9.0f}) {
     for (const Eigen::Vector3f& normal :
          {Eigen::Vector3f(0.0f, 0.0f, 1.0f), Eigen::Vector3f(-1.0f, 0.0f, 0.0f),
-          Eigen::Vector3f(0.0f, 0.6f, 0.8f)}) {
-      Surface surface;
-      surface.position = {0.3f * away, 0.1f, -away};
-      surface.geometric_normal = surface.shading_normal = surface.to_eye = normal;
-      surface.albedo = Eigen::Array3f::Ones();
-      tile.surfaces.push_back(surface);
-    }
+          Eigen::Vector3f(0.0f, 0.6f, 0.8f)})
+      tile.surfaces.push_back(mattSurface({0.3f * away, 0.1f, -away}, normal));
   }
-  const LampBeam beam(panel);
-  LitRows rows;
-  rows.set(tile, scene);
-  std::vector<float> shares(rows.stride()), least_lx(rows.stride(), 0.0f);
-  beam.shares(rows.positions(), shares.data());
-  LitRows::Reflected reflected;
-  rows.reflect(beam, {shares.data(), least_lx.data()}, &reflected);
+  const std::vector<double> reflected = reflectedBy(LampBeam(panel), tile);
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];
     double expected = 0.0;
@@ -240,7 +224,7 @@ TEST(CompactSources, OfAPanelLightWhatIsBesideItAsThePolygonDoes) {
     }
     // Patches of 0.15 × 0.2 m are points from 0.15 m on.
     const double tolerance = -surface.position.z() < 0.5f ? 0.06 : 0.015;
-    EXPECT_NEAR(reflected.values[rows.stride() + i], expected, tolerance * expected)
+    EXPECT_NEAR(reflected[i], expected, tolerance * expected)
         << surface.position.transpose() << ", " << surface.shading_normal.transpose();
   }
 }

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include "light/picture/lamps/lit_rows.h"
 #include "paper_scene.h"
 
 namespace sunlit::light {
@@ -47,6 +49,30 @@ inline scene::Scene ballAboveFloor(float radius, float height) {
   }
   scene.meshes.push_back(std::move(ball));
   return scene;
+}
+
+/// A white surface that is no more than matt.
+inline Surface mattSurface(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) {
+  Surface surface;
+  surface.position = position;
+  surface.geometric_normal = surface.shading_normal = surface.to_eye = normal;
+  surface.albedo = Eigen::Array3f::Ones();
+  return surface;
+}
+/// What such surfaces reflect of a source that nothing hides, cd/m².
+inline std::vector<double> reflectedBy(const LampBeam& beam, const Tile& tile) {
+  scene::Scene scene;
+  scene.materials = {paint(1.0f)};
+  scene.materials[0].dielectric = LinearRgb(0.0f, 0.0f, 0.0f);
+  scene.materials[0].dielectric_grazing = 0.0f;
+  LitRows rows;
+  rows.set(tile, scene);
+  std::vector<float> shares(rows.stride()), least_lx(rows.stride(), 0.0f);
+  beam.shares(rows.positions(), shares.data());
+  LitRows::Reflected reflected;
+  rows.reflect(beam, {shares.data(), least_lx.data()}, &reflected);
+  const auto green = reflected.values.begin() + static_cast<std::ptrdiff_t>(rows.stride());
+  return {green, green + static_cast<std::ptrdiff_t>(tile.surfaces.size())};
 }
 
 /// Illuminance, lx, of level ground at `place` by a patch of 1 cd/m² that shines down: the sum over its

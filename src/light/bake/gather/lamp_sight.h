@@ -56,7 +56,8 @@ inline std::optional<LampSight> lampSight(const LampBeam& lamp, const LitPoint& 
   if (lamp.isSurface()) way += lamp.aside(way / std::max(distance_m, 1e-6f), anyOfDisc(point.position));
   const bool before = point.face.dot(way) > 0.0f;
   if (!before && !(point.through > 0.0f)) return std::nullopt;
-  const float cosine = point.shadingNormal().dot(way) / std::max(distance_m, 1e-6f);
+  const float cosine = lamp.isTube() ? point.shadingNormal().dot(lamp.towards(point.position))
+                                     : point.shadingNormal().dot(way) / std::max(distance_m, 1e-6f);
   const float counts = countedCosine(cosine, point.through);
   if (!(counts > 0.0f)) return std::nullopt;
   const float clearance_m = rayClearance_m(point.position, distance_m);

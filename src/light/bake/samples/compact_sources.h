@@ -18,10 +18,11 @@ struct ShiningParts {
 };
 
 /// Of pieces that touch, and together reach no further than 1.5 m from their middle: bodies that show as
-/// large as an ellipsoid within a tenth, to all sides, and are not long, such as bulbs; and those nearly all
-/// of whose light is that of six faces at most, each flat and about as large as a rectangle of its length and
-/// width, such as panels. The most powerful of them, 256 at most, but none whose light others drown
-/// `height_m` below: a hundred panels of a hall, or a string of lights. The same for equal `pieces`.
+/// large as an ellipsoid within a tenth, to all sides, and are not long, such as bulbs; straight, even tubes
+/// at least four times as long as they are thick; and those nearly all of whose light is that of six faces at
+/// most, each flat and about as large as a rectangle of its length and width, such as panels. The most
+/// powerful of them, 256 at most, but none whose light others drown `height_m` below: a hundred panels of a
+/// hall, or a string of lights. The same for equal `pieces`.
 ShiningParts partedBySize(const std::vector<AreaLights::Piece>& pieces, float height_m);
 
 KeptSource kept(const CompactSource& source);

@@ -91,15 +91,16 @@ std::vector<AreaLights::Piece> shiningPieces(const Geometry& geometry,
   for (const std::uint32_t t : shining) {
     const scene::Material& material = materialOf(t);
     const auto& corners = geometry.triangles[t];
-    const Eigen::Vector3f& a = geometry.positions[corners[0]];
-    const Eigen::Vector3f ab = geometry.positions[corners[1]] - a, ac = geometry.positions[corners[2]] - a;
+    const Eigen::Vector3f &a = geometry.positions[corners[0]], &b = geometry.positions[corners[1]],
+                          &c = geometry.positions[corners[2]];
     const int across = isUneven(t) ? most_across : 1;
     for (const auto& part : partsOf(across)) {
       AreaLights::Piece piece;
       Reflectances::Part corners_of_part;
       for (Eigen::Index k = 0; k < 3; ++k) {
         const Eigen::Vector2f& at = part[static_cast<std::size_t>(k)];
-        piece.corner[static_cast<std::size_t>(k)] = a + at.x() * ab + at.y() * ac;
+        // Exact at corners: bodies are told by those that their triangles share.
+        piece.corner[static_cast<std::size_t>(k)] = (1.0f - at.sum()) * a + at.x() * b + at.y() * c;
         corners_of_part.col(k) << 1.0f - at.sum(), at.x(), at.y();
       }
       piece.normal = geometry.planes[t].normal;

@@ -46,7 +46,7 @@ void addLampLight(const LampsOnPlaces& from, const std::vector<LitPlace>& places
     rays.reserve(places.size());
     for (std::uint32_t i = 0; i < places.size(); ++i) {
       if (!(shares[i] * lamp.brightest() > least_lx[i])) continue;
-      if (!(places[i].normal.dot(lamp.position() - places[i].origin) > 0.0f)) continue;
+      if (!(places[i].normal.dot(lamp.towards(places[i].origin)) > 0.0f)) continue;
       const Eigen::Vector3f way = lamp.ball() - places[i].origin;
       const float reach = 1.0f - (lamp.spared_m() + kClear_m) / std::max(way.norm(), 1e-6f);
       rays.add(i, places[i].origin, std::max(reach, 1e-6f) * way);
@@ -56,7 +56,7 @@ void addLampLight(const LampsOnPlaces& from, const std::vector<LitPlace>& places
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const std::uint32_t i = rays.number()[k];
       if (blocked[k] != 0) continue;
-      const float cosine = places[i].normal.dot((lamp.position() - places[i].origin).normalized());
+      const float cosine = places[i].normal.dot(lamp.towards(places[i].origin));
       (*illuminance)[i] += cosine * shares[i] * lamp.intensity();
     }
   }

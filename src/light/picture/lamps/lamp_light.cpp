@@ -59,13 +59,13 @@ bool isOneSurface(const Surface& a, const Surface& b) {
          std::abs(a.geometric_normal.dot(way)) <= kOff * way.norm() + a.clearance_m;
 }
 
-/// From a surface to a point of a lamp that lies `aside` of its middle. Of a flat one that the surface's
-/// plane cuts only what is before that counts: points behind it are turned over to the other side.
+/// From a surface to a point of a lamp that lies `aside` of its middle. Of a flat one, or a tube, that the
+/// surface's plane cuts only what is before that counts: points behind it are turned over to the other side.
 Eigen::Vector3f wayTo(const LampBeam& beam, const Surface& surface, const Eigen::Vector3f& middle,
                       const Eigen::Vector3f& aside) {
   const auto isBefore = [&](const Eigen::Vector3f& way) { return surface.geometric_normal.dot(way) > 0.0f; };
-  const Eigen::Vector3f way = middle + aside, other = middle - aside;
-  return beam.isFlat() && !isBefore(way) && isBefore(other) ? other : way;
+  const Eigen::Vector3f way = middle + aside, other = middle + beam.turnedOver(aside);
+  return (beam.isFlat() || beam.isTube()) && !isBefore(way) && isBefore(other) ? other : way;
 }
 
 Eigen::AlignedBox3f boxOf(const Tile& tile) {

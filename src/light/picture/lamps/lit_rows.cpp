@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "light/lamps/tube.h"
 #include "light/shading/direct_parts.h"
 #include "light/shading/ggx.h"
 #include "light/shading/schlick.h"
@@ -65,13 +66,26 @@ struct Panel {
   }
 };
 
+/// A tube of some length.
+struct Tube {
+  Eigen::Vector3f middle, axis;
+  float half_m, radius_m;
+
+  explicit Tube(const LampBeam& beam)
+      : middle(beam.position()),
+        axis(beam.halfLength().normalized()),
+        half_m(beam.halfLength().norm()),
+        radius_m(beam.tubeRadius_m()) {}
+};
+
 struct Source {
   Eigen::Vector3f position;
   float shown_radius_m;
   float shown_at_least;  ///< by lobes: 1 of a lamp; 0 of a surface, which mirrors show by rays
   Eigen::Array3f intensity;
   float brightest;
-  const Panel* panel;  ///< null: a point but for the lobes
+  const Panel* panel;  ///< null: a point but for the lobes, or
+  const Tube* tube;
 };
 
 /// Of half its diagonal: within that of a flat source all of its patches count, or four of them. Light
@@ -176,6 +190,56 @@ inline __attribute__((always_inline)) void lookAtPanel(const Source& lamp, const
   }
 }
 
+/// Part of a line, from one end to the other as numbers along it; none where the ends have changed places.
+struct Stretch {
+  float from, to;
+
+  /// What lies before a plane from which the point u is `at_0` + `per_m` u away.
+  __attribute__((always_inline)) Stretch before(float at_0, float per_m) const {
+    const float slope = std::copysign(std::max(std::abs(per_m), 1e-12f), per_m), cut = -at_0 / slope;
+    return {slope > 0.0f ? std::max(from, cut) : from, slope > 0.0f ? to : std::min(to, cut)};
+  }
+};
+
+/// The same of a tube, of which the part counts that lies before a surface.
+inline __attribute__((always_inline)) void lookAtTube(const Source& lamp, const Rows& rows,
+                                                      const float* shares, Seen* __restrict seen) {
+  const Tube& tube = *lamp.tube;
+  const float middle_x = tube.middle.x(), middle_y = tube.middle.y(), middle_z = tube.middle.z();
+  const float axis_x = tube.axis.x(), axis_y = tube.axis.y(), axis_z = tube.axis.z();
+  const float half_m = tube.half_m, radius_m = tube.radius_m;
+  for (std::size_t k = 0; k < LitRows::kBlock; ++k) {
+    const auto dot = [&](std::size_t row, float x, float y, float z) {
+      return rows[row][k] * x + rows[row + 1][k] * y + rows[row + 2][k] * z;
+    };
+    const float x = middle_x - rows[kPosition][k], y = middle_y - rows[kPosition + 1][k],
+                z = middle_z - rows[kPosition + 2][k];
+    const float along_m = x * axis_x + y * axis_y + z * axis_z;
+    // To the nearest point of the line; from there on the tube is measured.
+    const float to_x = x - along_m * axis_x, to_y = y - along_m * axis_y, to_z = z - along_m * axis_z;
+    const float away_m = std::max(std::sqrt(to_x * to_x + to_y * to_y + to_z * to_z), radius_m);
+    const Stretch all{along_m - half_m, along_m + half_m};
+    const Stretch above =
+        all.before(dot(kGeometricNormal, to_x, to_y, to_z), dot(kGeometricNormal, axis_x, axis_y, axis_z));
+    const bool opaque = rows[kOpaque][k] > 0.0f;
+    const Stretch open{opaque ? above.from : all.from, opaque ? above.to : all.to};
+    const float normal_0 = dot(kNormal, to_x, to_y, to_z), normal_1 = dot(kNormal, axis_x, axis_y, axis_z);
+    const Stretch front = open.before(normal_0, normal_1);
+    const bool lit = front.to > front.from, any = open.to > open.from;
+    const TubeLight light = tubeLight(away_m, lit ? front.from : open.from, lit ? front.to : open.to);
+    const float across = light.across / away_m, along = light.along;
+    const float sum_x = across * to_x + along * axis_x, sum_y = across * to_y + along * axis_y,
+                sum_z = across * to_z + along * axis_z;
+    const float per = 1.0f / std::max(std::sqrt(sum_x * sum_x + sum_y * sum_y + sum_z * sum_z), 1e-12f);
+    const float lx = (across * normal_0 + along * normal_1) / (2.0f * half_m);
+    seen->lx[k] = (shares[k] > 0.0f) & any ? lx : 0.0f;
+    seen->x[k] = per * sum_x;
+    seen->y[k] = per * sum_y;
+    seen->z[k] = per * sum_z;
+    seen->per_m[k] = 1.0f / std::max(std::sqrt(x * x + y * y + z * z), 1e-6f);
+  }
+}
+
 /// How much of that they mirror.
 inline __attribute__((always_inline)) void mirror(const Source& lamp, const Rows& rows,
                                                   Seen* __restrict seen) {
@@ -238,6 +302,8 @@ std::size_t reflectAll(const Source& lamp, const Rows& rows, const LitRows::Arri
     const Rows block{rows.values + begin, rows.stride};
     if (lamp.panel)
       lookAtPanel(lamp, block, chosen, &seen);
+    else if (lamp.tube)
+      lookAtTube(lamp, block, chosen, &seen);
     else
       look(lamp, block, chosen, &seen);
     mirror(lamp, block, &seen);
@@ -293,12 +359,17 @@ LampBeam::Points LitRows::positions() const {
 
 void LitRows::reflect(const LampBeam& beam, const Arriving& arriving, Reflected* reflected) const {
   std::optional<Panel> panel;
-  const float away = beam.isFlat() ? box_.exteriorDistance(beam.position()) / beam.half().norm() : kNear;
-  if (away < kNear) panel.emplace(beam, away < kClose ? Panel::kMost : 4);
+  std::optional<Tube> tube;
+  const float half_m = beam.isFlat() ? beam.half().norm() : beam.halfLength().norm();
+  const bool has_size = beam.isFlat() || beam.isTube();
+  const float away = has_size ? box_.exteriorDistance(beam.position()) / half_m : kNear;
+  if (away < kNear && beam.isFlat()) panel.emplace(beam, away < kClose ? Panel::kMost : 4);
+  if (away < kNear && beam.isTube()) tube.emplace(beam);
   reflected->values.resize(4 * stride_);
   reflected->blocks.resize(stride_ / kBlock);
-  const Source source{beam.position(),  beam.shownRadius_m(), beam.isSurface() ? 0.0f : 1.0f,
-                      beam.intensity(), beam.brightest(),     panel ? &*panel : nullptr};
+  const Source source{beam.position(),        beam.shownRadius_m(), beam.isSurface() ? 0.0f : 1.0f,
+                      beam.intensity(),       beam.brightest(),     panel ? &*panel : nullptr,
+                      tube ? &*tube : nullptr};
   reflected->blocks.resize(reflectAll(source, {rows_.data(), stride_}, arriving,
                                       {reflected->values.data(), reflected->blocks.data()}));
 }
