@@ -188,7 +188,7 @@ def read_problems(folder):
         if not reason or not re.fullmatch("[a-z]+_[a-z]+|duplicate", kind):
             kind, reason = "unlocalised", row["fault"]
         problems.append({"kind": kind, "pose": None, "stamp": row["stamp"], "where": f"{row['stream']} ({row['role']})",
-                         "reason": reason})
+                         "reason": reason, "role": row["role"]})
     return problems
 
 

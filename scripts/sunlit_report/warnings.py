@@ -8,6 +8,9 @@ from . import circumstances, names, tables
 from .files import is_self_test, summarise
 
 
+USED_ALL_THE_SAME = ("no_features", "other_frame", "duplicate")  # pictures that such a problem is told of
+
+
 def _same(a, b):
     return (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-12)
 
@@ -39,6 +42,7 @@ def warnings(output):
         found.append(f"The run is not whole: {_lacking(output.run, outcome)}. See counters and problems.")
     found += _unplaced(outcome)
     found += _not_looked_for(outcome)
+    found += _not_used(output.problems)
     frames = [row["reason"] for row in output.problems if row["kind"] == "other_frame"]
     return found + [f"Poses are of several frames: {reason}." for reason in frames[:1]]
 
@@ -68,6 +72,16 @@ def _not_looked_for(outcome):
         return []
     queries = "query was" if count == 1 else "queries were"
     return [f"{count} {queries} not looked for, for want of a pose or camera_info: all shares are of the others. See problems."]
+
+
+def _not_used(problems):
+    """Pictures of bags, of which no run.yaml tells: those of queries stand in no share, those of the map cannot be found again."""
+    pictures = {role: {(row["where"], row["stamp"]) for row in problems if row.get("role") == role and row["kind"] not in USED_ALL_THE_SAME}
+                for role in ("query", "map")}
+    return [(f"{len(of_role)} {'picture' if len(of_role) == 1 else 'pictures'} of {what} could not be used, or not by each detector: {so}. "
+             "See problems.")
+            for of_role, what, so in ((pictures["query"], "the queries", "all shares are of the others"),
+                                      (pictures["map"], "the map", "it is of the others")) if of_role]
 
 
 def _compares_features(series):

@@ -298,6 +298,22 @@ class Files(InFolder):
                          [("1.5", "eve (query)", "orb found nothing in it"), ("2.5", "eve (query)", "no camera_info of this stamp")])
         self.assertIn("Poses are of several frames: poses are in odom, not map.", warnings.warnings(output))
 
+    def test_pictures_of_bags_that_stand_in_no_share_are_pointed_out(self):
+        self.write("localisation.csv", made.queries())
+        harmless = ['eve,query,1.5,"no_features: orb found nothing in it"', 'eve,query,1.5,"other_frame: poses are in odom, not map"',
+                    'eve,query,1.5,"duplicate: this stamp had come before; the first image counts"']
+        of_two_detectors = ["eve,query,2.5,sift: threw", "eve,query,2.5,orb: threw"]
+        for rows, expected in (
+                (harmless, []),
+                (harmless + of_two_detectors, [
+                    "1 picture of the queries could not be used, or not by each detector: all shares are of the others. See problems."]),
+                (["eve,query,2.5,no camera/pose of this stamp", "eve,query,3.5,no camera/pose of this stamp",
+                  'noon,map,1.5,"two_places: two poses of this stamp are 3 m apart"'], [
+                      "2 pictures of the queries could not be used, or not by each detector: all shares are of the others. See problems.",
+                      "1 picture of the map could not be used, or not by each detector: it is of the others. See problems."])):
+            self.write("localisation_problems.csv", [files.LOCALISATION_PROBLEMS, *rows])
+            self.assertEqual([line for line in warnings.warnings(self.read()) if "could not be used" in line], expected)
+
     def test_why_a_run_is_not_whole_is_pointed_out(self):
         self.write("frames.csv", made.frames())
         self.write("run.yaml", ["outcome: {whole: false, completed_poses: 25, absent_poses: 0, not_mended: 4}", "counters:",
