@@ -56,7 +56,7 @@ def found_on_map(output):
         width = 9.2 / max(columns, 2)
         figure, axes = grid_of(len(keys), columns, (width, width * shape + 0.35))
         picture = _picture(output.map_picture, 500) if output.map_picture and output.map_extent else None
-        for axis, key in zip(axes, keys):
+        for index, (axis, key) in enumerate(zip(axes, keys)):
             if picture is not None:
                 axis.imshow(255 - (255 - picture) // 3, extent=_extent(output, *truth.T), interpolation="none")
             _draw_found(axis, output.positions[key])
@@ -65,6 +65,10 @@ def found_on_map(output):
             axis.set_aspect("equal")
             axis.set_title(f"{names.condition(key[1])} in the map of {names.condition_of_map(key[0])}, {names.difference(key[2])}", loc="left")
             axis.tick_params(labelsize=6)
+            if index % columns == 0:
+                axis.set_ylabel("y, north / m")
+            if index >= len(keys) - columns:
+                axis.set_xlabel("x, east / m")
         legend_above(figure, axes)
         return svg(figure), len(shown), len(hours)
 

@@ -704,6 +704,7 @@ class Elevation(InFolder):
         picture, shown, hours = map_figure.found_on_map(output)
         self.assertEqual((shown, hours), (6, 20))
         self.assertIn("<svg", picture)
+        self.assertEqual((picture.count("x, east / m"), picture.count("y, north / m")), (1, 6))  # a column of six panels
 
     def test_lines_from_the_truth_to_estimates_far_off_are_drawn_at_once(self):
         truth = np.arange(900.0).reshape(300, 3)
