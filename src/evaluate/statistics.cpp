@@ -161,16 +161,27 @@ Statistics statisticsOf(const std::vector<double>& values) {
   return result;
 }
 
+namespace {
+
+// That of the share in `result`. Where all or none succeed one of its ends is the share itself, to the bit.
+void takeWilsonsInterval(Statistics& result) {
+  const double n = static_cast<double>(result.n), share = result.mean;
+  const double square = kNormalQuantile * kNormalQuantile;
+  const double middle = (n * share + square / 2.0) / (n + square);
+  const double reach = kNormalQuantile * std::sqrt(n * share * (1.0 - share) + square / 4.0) / (n + square);
+  result.ci_low = share == 0.0 ? 0.0 : middle - reach;
+  result.ci_high = share == 1.0 ? 1.0 : middle + reach;
+}
+
+}  // namespace
+
 Statistics shareOf(const std::vector<double>& successes) {
   Statistics result = statisticsOf(successes);
   const std::vector<double> series = definedOf(successes);
   // Of ones and zeros the sum is exact, and so is what is nearest to the fraction.
   if (!series.empty())
     result.mean = std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
-  if (result.n < 2 || result.sd > 0.0) return result;
-  const double n = static_cast<double>(result.n);
-  const double wide = kNormalQuantile * kNormalQuantile / (n + kNormalQuantile * kNormalQuantile);
-  (result.mean > 0.5 ? result.ci_low : result.ci_high) = result.mean > 0.5 ? 1.0 - wide : wide;
+  if (result.n >= 2 && !(result.ci_low < result.ci_high)) takeWilsonsInterval(result);
   return result;
 }
 

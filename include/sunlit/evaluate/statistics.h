@@ -28,9 +28,10 @@ struct Statistics {
 /// of a circular moving-block bootstrap (blockLength(), 2000 resamples, percentiles, a fixed seed): same
 /// values, same interval.
 Statistics statisticsOf(const std::vector<double>& values);
-/// Of successes, 1 or 0 each: the same, but where all are alike, which resampling takes for certain, Wilson's
-/// interval (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927), 209-212) of n trials: what does not vary tells of
-/// no correlation, so its blocks are of length 1.
+/// Of successes, 1 or 0 each: the same, but where all resamples have one mean, which they take for certain,
+/// Wilson's interval (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927), 209-212) of n trials: where all or none
+/// succeed, and where successes alternate so that each block has as many, as on poses of which every other is
+/// that of a key frame.
 Statistics shareOf(const std::vector<double>& successes);
 /// As statisticsOf(), but for the interval: it is NaN.
 Statistics momentsOf(const std::vector<double>& values);

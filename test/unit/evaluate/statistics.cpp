@@ -140,6 +140,12 @@ TEST(ConfidenceInterval, OfAShareIsNeverWithoutWidth) {
   EXPECT_EQ(all.ci_high, 1.0);
   EXPECT_NEAR(all.ci_low, 1.0 - 0.2775, 5e-5);
   EXPECT_TRUE(std::isnan(shareOf({1.0}).ci_low));
+  // Every other one of 12: any block of four has two, and each resample six. (0.5 + 1.96² / 24 ± 1.96 √(0.25
+  // / 12 + 1.96² / 24²)) / (1 + 1.96² / 12).
+  const Statistics other = shareOf({1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0});
+  EXPECT_EQ(other.mean, 0.5);
+  EXPECT_NEAR(other.ci_low, 0.2538, 5e-5);
+  EXPECT_NEAR(other.ci_high, 0.7462, 5e-5);
   // The others are as they were.
   const std::vector<double> some = {1, 1, 0, 1, 1, 1, 0, 0, 1, 1, 1, 1};
   EXPECT_EQ(shareOf(some).ci_low, statisticsOf(some).ci_low);
