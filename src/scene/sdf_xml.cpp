@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "scene/sdf_quotes.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/utf8.h"
 
@@ -52,7 +53,12 @@ std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file) {
   std::string text = utf8Of({std::istreambuf_iterator<char>(stream), {}}, file);
   dropLateDeclaration(&text);
   auto document = std::make_unique<tinyxml2::XMLDocument>();
-  if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+  // Gazebo Classic takes values without quotes, tinyxml2 does not.
+  if (document->Parse(text.data(), text.size()) == tinyxml2::XML_ERROR_PARSING_ATTRIBUTE) {
+    text = quotedValues(text);
+    document->Parse(text.data(), text.size());
+  }
+  if (document->Error()) {
     throw std::runtime_error(file + ":" + std::to_string(document->ErrorLineNum()) +
                              ": the XML is broken here (" + document->ErrorName() + ")");
   }
