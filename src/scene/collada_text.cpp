@@ -55,6 +55,14 @@ std::string absentFileOf(const std::string& image_tag) {
   return "image " + (id.empty() ? valueInTag(image_tag, "name") : id) + " (which names no file)";
 }
 
+/// The tag of the <image> around `at`; empty where there is none.
+std::string imageAround(std::size_t at, const std::string& text) {
+  const std::size_t from = text.rfind("<image", at);
+  if (from == std::string::npos || text.find("</image>", from) < at) return "";
+  const std::string tag = text.substr(from, text.find('>', from) + 1 - from);
+  return tag[tag.size() - 2] == '/' ? "" : tag;
+}
+
 void nameFilesOfImages(std::string& text) {
   const std::string begin = "<image ", end = "</image>", file = "<init_from>", data = "<data>";
   for (std::size_t from = text.find(begin); from != std::string::npos; from = text.find(begin, from + 1)) {
@@ -190,6 +198,27 @@ std::string withoutAnimations(const std::string& text) {
 
 std::string withWeightsAtOnce(const std::string& text) {
   return withoutBlanksAfter(text, {"v", "vcount"});
+}
+
+std::string withAddressesOfImages(const std::string& text) {
+  const std::string begin = "<init_from", end = "</init_from>";
+  TextChanges addresses;
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    std::size_t to = text.find('>', at);
+    if (to == std::string::npos) break;
+    if (text[to++ - 1] != '/') {
+      to = endOfBlanks(text, to);
+      if (text.compare(to, end.size(), end) != 0) continue;
+      to += end.size();
+    }
+    const std::string image = imageAround(at, text);
+    if (image.empty()) continue;
+    const auto first = text.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto lines = std::count(first, text.begin() + static_cast<std::ptrdiff_t>(to), '\n');
+    addresses[at] = {to - at, "<init_from>" + absentFileOf(image) + end +
+                                  std::string(static_cast<std::size_t>(lines), '\n')};
+  }
+  return changed(text, addresses);
 }
 
 ColladaText readableCollada(const std::string& text) {

@@ -30,6 +30,10 @@ std::string withBareMaterials(const std::string& text);
 /// sizes of what it then writes beyond. Lines do not stay where they are.
 std::string withWeightsAtOnce(const std::string& text);
 
+/// `text` in which pictures whose <init_from> is empty, as Cinema 4D writes it, have a file that is not
+/// there, called as the image is. Lines stay where they are.
+std::string withAddressesOfImages(const std::string& text);
+
 /// `text` without comments, without blanks between the tag of a colour and its numbers, and without holes;
 /// and pictures without a file have one that is not there, called as the image is.
 ColladaText readableCollada(const std::string& text);

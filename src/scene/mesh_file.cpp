@@ -256,7 +256,7 @@ ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, 
       withoutMorphs(withoutAnimations(utf8Of({std::istreambuf_iterator<char>(stream), {}}, file)));
   for (const std::string& morph : still.names)
     builder.warn("meshes have morphs, which are left out: they have their base shape", morph + " of " + file);
-  std::string text = withCountedLines(still.text);
+  std::string text = withAddressesOfImages(withCountedLines(still.text));
   requireReadableCollada(text, file);
   text = withParameters(withKnownSets(text));
   ColladaEffects effects = effectsOf(text);

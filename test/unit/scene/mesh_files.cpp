@@ -458,6 +458,23 @@ TEST_F(MeshFile, APictureWithoutAFileIsAMissingTexture) {
                    "no file)");
 }
 
+// As Cinema 4D writes it.
+TEST_F(MeshFile, APictureWithAnEmptyAddressIsAMissingTexture) {
+  const std::string whole = collada(kCentimetresZUp, "paint.png");
+  const std::string file = "<init_from>paint.png</init_from>";
+  for (const std::string empty : {"<init_from/>", "<init_from></init_from>", "<init_from>\n </init_from>",
+                                  "<init_from sid='s'> <!--none--> </init_from>"}) {
+    std::string text = whole;
+    text.replace(text.find(file), file.size(), empty);
+    const Scene scene = load(write("t.dae", text), {});
+    EXPECT_EQ(scene.triangleCount(), 1u) << empty;
+    expectOneWarning(
+        scene,
+        "1 textures are missing, a neutral material takes their place: image picture (which names "
+        "no file)");
+  }
+}
+
 TEST_F(MeshFile, EmptyAnimationsEndWhereTheyBegin) {
   std::string text = collada(kCentimetresZUp);
   const std::string geometries = "<library_geometries>", scenes = "<library_visual_scenes>";
