@@ -36,6 +36,8 @@ constexpr int kLongestTextureSide = 8192;
 /// Kinds of warnings that several importers have.
 constexpr const char* kMissingTextures = "textures are missing, a neutral material takes their place";
 constexpr const char* kNotRendered = "features of materials are not rendered";
+constexpr const char* kPicturesOfGazebo =
+    "materials have a picture that comes with Gazebo, a colour like it takes its place";
 constexpr const char* kOtherLights =
     "lights that are no points and no spots were not read: the sky takes their place";
 constexpr const char* kDarkLights =

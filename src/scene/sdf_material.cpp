@@ -41,8 +41,10 @@ int SdfMaterials::texture(const std::string& name, const std::string& from_file)
 }
 
 SdfMaterials::Scripted SdfMaterials::fromScript(const sdf::Material& source) {
-  if (const std::optional<GazeboLook> look = gazeboLook(source.ScriptName()))
+  if (const std::optional<GazeboLook> look = gazeboLook(source.ScriptName())) {
+    if (look->pictured) builder_.warn(kPicturesOfGazebo, source.ScriptName());
     return {materialOf(*look, source.ScriptName())};
+  }
   // <script> may hold several <uri>; sdf::Material keeps the first only.
   ScriptUse use{source.ScriptName(), {}, source.FilePath()};
   const sdf::ElementPtr script = source.Element() ? firstIn(*source.Element(), "script") : nullptr;

@@ -148,8 +148,10 @@ std::optional<int> UrdfVisuals::materialOfGazebo(const std::string& place) {
 
 /// Looks through folders, so that it is asked once for each name.
 std::optional<int> UrdfVisuals::gazeboMaterialCalled(const std::string& name, const std::string& place) {
-  if (const std::optional<GazeboLook> look = gazeboLook(name))
+  if (const std::optional<GazeboLook> look = gazeboLook(name)) {
+    if (look->pictured) builder_.warn(kPicturesOfGazebo, name);
     return builder_.addMaterial(materialOf(*look, name), AlphaRule::kFromTexture);
+  }
   if (!scripts_.find({name, {}, origin_})) return std::nullopt;
   return looks_.add(scriptElement(name), place);
 }

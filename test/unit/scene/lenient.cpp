@@ -201,6 +201,11 @@ TEST_F(Lenient, AScriptWithoutAFileIsGazebosOwn) {
   EXPECT_EQ(red.materials.at(static_cast<std::size_t>(red.meshes.at(0).material)).base_color.value[0], 1.0f);
   EXPECT_EQ(red.materials.at(static_cast<std::size_t>(red.meshes.at(0).material)).base_color.value[1], 0.0f);
   EXPECT_TRUE(red.warnings.empty());
+  const Scene wood = loaded(painted("<name>Gazebo/Wood</name>"));
+  ASSERT_EQ(wood.warnings.size(), 1u);
+  EXPECT_EQ(
+      wood.warnings[0],
+      "1 materials have a picture that comes with Gazebo, a colour like it takes its place: Gazebo/Wood");
   EXPECT_EQ(loaded(painted("<uri>__default__</uri><name>Gazebo/Red</name>")).triangleCount(), 12u);
   EXPECT_EQ(loaded(painted("<uri>file://x.material</uri>")).triangleCount(), 12u);
   EXPECT_EQ(loaded(painted("<uri>__default__</uri><name>__default__</name>")).triangleCount(), 12u);
