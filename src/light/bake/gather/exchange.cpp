@@ -193,10 +193,9 @@ Exchange::LookedFor Exchange::sentOf(const StraightLight& lamps, const std::vect
 }
 
 std::vector<Arrived> Exchange::receivedOf(const LookedFor& sent, std::vector<Arrived> found) const {
-  std::vector<Eigen::Vector3f> places(seen.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = samples_.receivers[i].middle();
+  const std::vector<Eigen::Vector3f>& places = this->places();
   const auto lit = [&](std::uint32_t other) { return sent.sent.any[other] != 0; };
-  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
+  inLitBlocks(sent.sent, [&](std::size_t i) {
     visitSeen(i, lit, [&](const SampleSeen& other, bool up) {
       const float from_m = (places[senderOf(other.sample)] - places[i]).norm();
       const float looked = lookedForFrom(sent.lamp_m[other.sample], from_m);
@@ -205,6 +204,15 @@ std::vector<Arrived> Exchange::receivedOf(const LookedFor& sent, std::vector<Arr
     });
   });
   return found;
+}
+
+const std::vector<Eigen::Vector3f>& Exchange::places() const {
+  std::call_once(places_found_, [&] {
+    places_.resize(seen.size());
+    tbb::parallel_for(std::size_t{0}, places_.size(),
+                      [&](std::size_t i) { places_[i] = samples_.receivers[i].middle(); });
+  });
+  return places_;
 }
 
 /// Asked for once all is seen.
@@ -225,12 +233,27 @@ const std::vector<std::vector<std::uint32_t>>& Exchange::senders() const {
   return senders_;
 }
 
+/// Calls visit(sample) for all of those blocks that get any of the light. Parallel. Returns whether there is
+/// any.
+template <typename Visit>
+bool Exchange::inLitBlocks(const Sent& sent, const Visit& visit) const {
+  const std::vector<std::vector<std::uint32_t>>& senders = this->senders();
+  std::vector<std::uint8_t> lit(senders.size(), 0);
+  for (std::size_t i = 0; i < sentCount(); ++i) lit[senderOf(i) / kSamplesOfTask] |= sent.any[i];
+  if (std::find(lit.begin(), lit.end(), 1) == lit.end()) return false;
+  tbb::parallel_for(std::size_t{0}, senders.size(), [&](std::size_t block) {
+    const bool is_lit = std::any_of(senders[block].begin(), senders[block].end(),
+                                    [&](std::uint32_t other) { return lit[other] != 0; });
+    if (!is_lit) return;
+    for (std::size_t i = block * kSamplesOfTask; i < endOf(block); ++i) visit(i);
+  });
+  return true;
+}
+
 /// Of what is sent, send(number) by what samples have, all know what they were `told`. The rest goes on.
 template <typename Send>
 void Exchange::passOnChanges(const Send& send, float dark, int most, OnItsWay* light) const {
-  const std::vector<std::vector<std::uint32_t>>& senders = this->senders();
   Sent changes(sentCount());
-  std::vector<std::uint8_t> changed(senders.size());
   for (int bounce = 0; bounce < most; ++bounce) {
     tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) {
       const Eigen::Array3f now = send(i), change = now - light->told[i];
@@ -238,16 +261,7 @@ void Exchange::passOnChanges(const Send& send, float dark, int most, OnItsWay* l
       changes.set(i, matters ? change : Eigen::Array3f::Zero());
       if (matters) light->told[i] = now;
     });
-    std::fill(changed.begin(), changed.end(), 0);
-    for (std::size_t i = 0; i < sentCount(); ++i) changed[senderOf(i) / kSamplesOfTask] |= changes.any[i];
-    if (std::find(changed.begin(), changed.end(), 1) == changed.end()) return;
-    tbb::parallel_for(std::size_t{0}, senders.size(), [&](std::size_t block) {
-      const bool is_new = std::any_of(senders[block].begin(), senders[block].end(),
-                                      [&](std::uint32_t other) { return changed[other] != 0; });
-      if (!is_new) return;
-      for (std::size_t i = block * kSamplesOfTask; i < endOf(block); ++i)
-        (*light->has)[i] += receivedOf(changes, i);
-    });
+    if (!inLitBlocks(changes, [&](std::size_t i) { (*light->has)[i] += receivedOf(changes, i); })) return;
   }
 }
 

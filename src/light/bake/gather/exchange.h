@@ -141,6 +141,10 @@ class Exchange {
   Arrived receivedOf(const Sent& sent, std::size_t sample) const;
   /// Of each block of kSamplesOfTask samples, neighbours mostly: blocks whose light it gets.
   const std::vector<std::vector<std::uint32_t>>& senders() const;
+  template <typename Visit>
+  bool inLitBlocks(const Sent& sent, const Visit& visit) const;
+  /// Of each sample, Receiver::middle().
+  const std::vector<Eigen::Vector3f>& places() const;
   /// What samples have, and what they sent of it that others have by now.
   struct OnItsWay {
     std::vector<Arrived>* has;
@@ -160,9 +164,10 @@ class Exchange {
   std::array<float, SkyPatches::kDown> scattered_down_;  ///< scattered() by ground, of each direction
   std::vector<std::uint32_t> instead_;  ///< of each sample of no use: one that is, or LightMesh::kNone
   std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
-  mutable std::once_flag senders_found_, sendings_found_;
+  mutable std::once_flag senders_found_, sendings_found_, places_found_;
   mutable std::vector<std::vector<std::uint32_t>> senders_;
   mutable std::vector<Sending> sendings_;
+  mutable std::vector<Eigen::Vector3f> places_;
 };
 
 template <typename Wanted, typename Visit>
