@@ -13,7 +13,6 @@
 #include "light/bake/gather/relight.h"
 #include "light/bake/samples/compact_sources.h"
 #include "light/bake/samples/node_lights.h"
-#include "light/bake/samples/parting_walls.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/shining_surfaces.h"
 #include "light/lamps/lamp_sets.h"
@@ -104,7 +103,8 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
       });
   const GatherOptions gather{options.rays_per_patch, options.bounces, shining,
                              [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
-  samples.mesh.drop(gatherLight(scene, samples, gather, data.get()), PartingWalls(scene, samples));
+  const UselessSamples useless = gatherLight(scene, samples, gather, data.get());
+  samples.mesh.drop(useless.are, useless.in_place);
   data->mesh = std::move(samples.mesh);
   for (const CompactSource& source : parts.compact) data->compact_sources.push_back(kept(source));
   return std::make_shared<const Transport>(options, std::move(data));

@@ -45,7 +45,7 @@ TEST(LightMesh, ANodeWithoutUsefulSamplesHasThatOfTheNearest) {
   const std::vector<bool> useless = {false, false, true, true, true};
   // Node 2 is in a cell with 0 and 1, node 3 with 1 alone, node 4 with 2 and 3, which had none either.
   EXPECT_EQ(mesh.usefulSamples(useless, nowhere), (Expected{0, 1, 0, 1, 0}));
-  mesh.drop(useless, nowhere);
+  mesh.drop(useless, mesh.usefulSamples(useless, nowhere));
   EXPECT_EQ(mesh.shares[3].sample, 1u);
   EXPECT_EQ(mesh.shares[3].weight, 1.0f);
   EXPECT_EQ(mesh.shares[0].sample, 0u);
@@ -58,7 +58,7 @@ TEST(LightMesh, FarFromUsefulSamplesNodesKeepTheirOwn) {
   // Four rings of cells reach nodes 1 and 2, 3 and 4, 5 and 6, 7 and 8.
   EXPECT_EQ(mesh.usefulSamples(useless, nowhere)[8], 0u);
   EXPECT_EQ(mesh.usefulSamples(useless, nowhere)[9], LightMesh::kNone);
-  mesh.drop(useless, nowhere);
+  mesh.drop(useless, mesh.usefulSamples(useless, nowhere));
   EXPECT_EQ(mesh.shares[8].sample, 0u);
   EXPECT_EQ(mesh.shares[9].sample, 9u);
 }
@@ -80,7 +80,7 @@ TEST(LightMesh, OfSeveralSamplesTheUsefulOnesShareAllTheWeight) {
   mesh.shares.own() = {{0, 0.5f}, {1, 0.2f}, {2, 0.3f}, {1, 1.0f}, {2, 1.0f}};
   const std::vector<bool> useless = {true, false, false};
   EXPECT_EQ(mesh.usefulSamples(useless, nowhere)[0], 2u);
-  mesh.drop(useless, nowhere);
+  mesh.drop(useless, mesh.usefulSamples(useless, nowhere));
   EXPECT_EQ(mesh.shares[0].weight, 0.0f);
   EXPECT_FLOAT_EQ(mesh.shares[1].weight, 0.4f);
   EXPECT_FLOAT_EQ(mesh.shares[2].weight, 0.6f);

@@ -87,8 +87,9 @@ void Exchange::useRooms() {
   }
 }
 
-void Exchange::passOver(const std::vector<bool>& useless, const LightMesh::Parted& parted) {
-  const std::vector<std::uint32_t> useful = samples_.mesh.usefulSamples(useless, parted);
+std::vector<std::uint32_t> Exchange::passOver(const std::vector<bool>& useless,
+                                              const LightMesh::Parted& parted) {
+  std::vector<std::uint32_t> useful = samples_.mesh.usefulSamples(useless, parted);
   instead_.assign(useless.size(), LightMesh::kNone);
   // A sample may count most in several nodes, some of them behind the wall.
   for (const bool anywhere : {false, true}) {
@@ -101,6 +102,7 @@ void Exchange::passOver(const std::vector<bool>& useless, const LightMesh::Parte
   tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
     for (SampleAndByte& hit : seen[i].hits) hit = SampleAndByte::of(usefulBeside(hit.sample()), hit.byte());
   });
+  return useful;
 }
 
 bool Exchange::isPolished(std::uint32_t sample) const {

@@ -65,8 +65,8 @@ class Exchange {
             tints.empty() ? PackedTint() : tints[sample][hit]};
   }
   /// Of all that is `seen`, puts samples beside it in the place of those that are of no use: if any, such as
-  /// they are not parted from. Parallel.
-  void passOver(const std::vector<bool>& useless, const LightMesh::Parted& parted);
+  /// they are not parted from. Returns LightMesh::usefulSamples(). Parallel.
+  std::vector<std::uint32_t> passOver(const std::vector<bool>& useless, const LightMesh::Parted& parted);
   /// The sample itself, or the one that passOver() puts in its place.
   std::uint32_t usefulBeside(std::uint32_t sample) const {
     const std::uint32_t other = instead_.empty() ? LightMesh::kNone : instead_[sample];

@@ -62,7 +62,7 @@ class Gatherer {
         exchange_(samples, patches_, rooms),
         count_(samples.receivers.size()) {}
 
-  std::vector<bool> gather(TransportData* data) {
+  UselessSamples gather(TransportData* data) {
     data->direct.resize(count_);
     if (hasTintedGlass(*geometry_.scene)) {
       data->direct_tints.resize(count_);
@@ -77,9 +77,9 @@ class Gatherer {
       lookAround(p * kPacket, data);
       step(direct_share / static_cast<double>(packets));
     });
-    std::vector<bool> inside(count_);
-    for (std::size_t i = 0; i < count_; ++i) inside[i] = exchange_.seen[i].inside;
-    exchange_.passOver(inside, PartingWalls(scene_, samples_));
+    UselessSamples useless{std::vector<bool>(count_), {}};
+    for (std::size_t i = 0; i < count_; ++i) useless.are[i] = exchange_.seen[i].inside;
+    useless.in_place = exchange_.passOver(useless.are, PartingWalls(scene_, samples_));
     const bool all = options_.bounces >= kBouncesBeforeAll;
     if (options_.bounces > 0) {
       const RoomBaker rooms(scene_, samples_, exchange_);
@@ -100,7 +100,7 @@ class Gatherer {
     const LampBounces lamps(scene_, samples_, exchange_, bounces);
     if (bounces > 0 && options_.shining.any()) lamps.bakeShining(options_.shining, data);
     data->lamps = lamps.bake();
-    return inside;
+    return useless;
   }
 
  private:
@@ -339,8 +339,8 @@ class Gatherer {
 
 }  // namespace
 
-std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& samples,
-                              const GatherOptions& options, TransportData* data) {
+UselessSamples gatherLight(const BakeScene& scene, const SceneSamples& samples, const GatherOptions& options,
+                           TransportData* data) {
   if (samples.receivers.size() > Exchange::kMostSamples) {
     throw std::runtime_error("bake of light: the scene takes " + std::to_string(samples.receivers.size()) +
                              " samples, of at most " + std::to_string(Exchange::kMostSamples) +

@@ -1,7 +1,9 @@
 /// How much of each sky patch's light arrives at the samples of a scene.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "light/bake/gather/lamp_bounces.h"
 #include "light/bake/samples/scene_samples.h"
@@ -19,10 +21,15 @@ struct GatherOptions {
   GatherProgress progress;
 };
 
-/// Fills `data` but for its mesh. Returns for each sample whether it lies inside a body, where its light is
-/// of no use. Parallel; the same bits for any number of threads. Throws std::runtime_error for more than 2^24
-/// samples.
-std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& samples,
-                              const GatherOptions& options, TransportData* data);
+/// Samples inside bodies, whose light is of no use.
+struct UselessSamples {
+  std::vector<bool> are;                ///< of each sample
+  std::vector<std::uint32_t> in_place;  ///< of each node, LightMesh::usefulSamples()
+};
+
+/// Fills `data` but for its mesh. Parallel; the same bits for any number of threads. Throws
+/// std::runtime_error for more than 2^24 samples.
+UselessSamples gatherLight(const BakeScene& scene, const SceneSamples& samples, const GatherOptions& options,
+                           TransportData* data);
 
 }  // namespace sunlit::light

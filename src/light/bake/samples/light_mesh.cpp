@@ -63,8 +63,7 @@ std::vector<std::uint32_t> LightMesh::usefulSamples(const std::vector<bool>& use
   return samples;
 }
 
-void LightMesh::drop(const std::vector<bool>& useless, const Parted& parted) {
-  const std::vector<std::uint32_t> useful = usefulSamples(useless, parted);
+void LightMesh::drop(const std::vector<bool>& useless, const std::vector<std::uint32_t>& useful) {
   for (std::size_t n = 0; n < nodeCount(); ++n) {
     if (useful[n] == kNone) continue;
     float sum = 0.0f;

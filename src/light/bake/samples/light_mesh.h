@@ -74,7 +74,7 @@ struct LightMesh {
   /// beyond.
   std::vector<std::uint32_t> usefulSamples(const std::vector<bool>& useless, const Parted& parted) const;
   /// Takes samples that are of no use out of nodes; those left with none get that of usefulSamples().
-  void drop(const std::vector<bool>& useless, const Parted& parted);
+  void drop(const std::vector<bool>& useless, const std::vector<std::uint32_t>& useful);
 };
 
 }  // namespace sunlit::light
