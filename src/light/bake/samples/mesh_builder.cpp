@@ -8,7 +8,6 @@
 
 #include "light/bake/samples/burial_test.h"
 #include "light/bake/samples/sheet_sides.h"
-#include "light/bake/samples/wall_cuts.h"
 #include "light/bake/samples/wall_sides.h"
 #include "sunlit/quantity/photometry.h"
 #include "sunlit/quantity/random.h"
@@ -285,6 +284,7 @@ void MeshBuilder::refine(const RefineLimits& limits, const Progress& progress) {
       halveMostUrgent(limits, pass);
     }
     active_.swap(left_);
+    uncut_ = true;
   }
   separateSides(progress);
   findHanging();
@@ -299,8 +299,9 @@ void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
   tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
     const LightMesh::Cell& cell = mesh.cells[active_[i]];
     urgencies[i] = urgency(cell, limits.finest_m, pass);
-    if (urgencies[i] <= 1.0f && cut(cell, limits.finest_m)) urgencies[i] = kCutUrgency;
+    if (urgencies[i] <= 1.0f && !uncut_ && cut(cell, limits.finest_m)) urgencies[i] = kCutUrgency;
   });
+  uncut_ = false;
   std::vector<Split> splits;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     if (urgencies[i] > 1.0f) {
@@ -323,41 +324,6 @@ void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
     splits.resize(room);
   }
   for (const Split& s : splits) split(s.cell);
-}
-
-/// Of walls and sheets that cells go through, or end at.
-void MeshBuilder::separateSides(const Progress& progress) {
-  const BakeScene scene{geometry_, rays_, traits_};
-  std::vector<std::uint32_t> changed = WallCuts(scene, &mesh, &index.nodes).cut();
-  const std::vector<SheetSides::Side> sides = SheetSides(scene, &mesh, &index.nodes).separate();
-  originals_.resize(index.nodes.size());
-  std::iota(originals_.begin(), originals_.end(), 0u);
-  has_sides_.resize(index.nodes.size());
-  for (const SheetSides::Side& side : sides) {
-    originals_[side.node] = side.original;
-    has_sides_[side.original] = true;
-    changed.push_back(side.node);
-  }
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  pullByOwnCells(changed);
-  lookAroundAgain(changed, progress);
-  looked_ = index.nodes.size();
-}
-
-/// By their size: what is left of a cell before a wall would pull a node through it.
-void MeshBuilder::pullByOwnCells(const std::vector<std::uint32_t>& nodes) {
-  std::vector<bool> wanted(index.nodes.size());
-  for (const std::uint32_t n : nodes) {
-    index.nodes[n].pullNoMore();
-    wanted[n] = true;
-  }
-  for (const LightMesh::Cell& cell : mesh.cells) {
-    if (cell.inner()) continue;
-    const Eigen::Vector3f middle = middleOf(cell, index.nodes);
-    for (const std::uint32_t n : cell.corner)
-      if (wanted[n]) index.nodes[n].pullTowards(middle, (middle - index.nodes[n].position).norm());
-  }
 }
 
 /// `middle`: of the cell with the undivided edge.
