@@ -25,6 +25,10 @@ namespace {
 /// Of the samples' usual distance, 3 m, or less in small worlds: as high as lamps hang above what they light.
 constexpr float kLampHeights = 12.0f;
 
+/// What of a bake is done by the clock, about: once rays can be cast, kinds of triangles are known, and
+/// samples and leaves are found.
+constexpr double kRaysMade = 0.01, kBegun = 0.04, kSampled = 0.4;
+
 /// What the bake has to look for: `pieces` that shine by themselves, what these and compact sources light
 /// brightly, and what all lamps do.
 AreaLights brightIn(const BakeScene& scene, const ShiningLights& shining,
@@ -66,13 +70,15 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
                                                  const BakeProgress& progress) {
   validate(options);
   const auto start = std::chrono::steady_clock::now();
-  const auto report = [&](double share) {
-    constexpr double kTells = 0.05;  // of the whole; what a bake begins with is told by no share of its own
+  const Progress report = [&](double share) {
+    constexpr double kTells = 0.05;  // of the whole: before that, nobody knows how long the rest will take
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     if (progress) progress(share, share < kTells ? std::nan("") : taken.count() * (1.0 - share) / share);
   };
+  report(0.0);
   const BakeRays rays(geometry);
-  const std::vector<TriangleTraits> traits = triangleTraits(*geometry, rays);
+  const std::vector<TriangleTraits> traits =
+      triangleTraits(*geometry, rays, partOf(report, kRaysMade, kBegun));
   const RefineLimits limits{static_cast<float>(finestOf(options, *geometry)),
                             static_cast<std::size_t>(options.samples)};
   const BakeScene scene{*geometry, rays, traits};
@@ -81,7 +87,6 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   const AreaLights baked(rays, parts.others), compact(rays, parts.of_compact);
   const std::vector<LampBeam> beams(parts.compact.begin(), parts.compact.end());
   const ShiningLights shining{baked, compact, beams};
-  constexpr double kSampled = 0.4;
   const bool any_leaves = std::any_of(traits.begin(), traits.end(),
                                       [](const TriangleTraits& triangle) { return isLeaf(triangle.kind); });
   const double leaf_share = any_leaves ? 0.2 : 0.0;
@@ -92,7 +97,7 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   const auto note = [&](double share, double* part) {
     const std::lock_guard<std::mutex> lock(mutex);
     *part = share;
-    report(leaf_share * leaves + (kSampled - leaf_share) * sampled);
+    report(kBegun + leaf_share * leaves + (kSampled - kBegun - leaf_share) * sampled);
   };
   // Side by side, since some of the sampling is work for one thread.
   tbb::parallel_invoke(
@@ -101,8 +106,7 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
         samples = sampleScene(scene, brightIn(scene, shining, parts.others), limits,
                               [&](double share) { note(share, &sampled); });
       });
-  const GatherOptions gather{options.rays_per_patch, options.bounces, shining,
-                             [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
+  const GatherOptions gather{options.rays_per_patch, options.bounces, shining, partOf(report, kSampled, 1.0)};
   const UselessSamples useless = gatherLight(scene, samples, gather, data.get());
   samples.mesh.drop(useless.are, useless.in_place);
   data->mesh = std::move(samples.mesh);

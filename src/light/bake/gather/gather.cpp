@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -33,8 +32,9 @@ constexpr float kWalls = 0.8f;
 /// The same of surfaces of any kind: less than the reveal of a window sees.
 constexpr float kOutdoors = 0.4f;
 
-/// What rays to the sky, rooms and the first bounces take of the work, about; lamps and more take the rest.
-constexpr double kOfDirect = 0.55, kOfRooms = 0.25, kOfBounces = 0.1;
+/// What of the work is done, about: once rays to the sky are cast, rooms are found, the first bounces and the
+/// others are told, and what shines has lit all; lamps take the rest.
+constexpr double kDirect = 0.5, kRooms = 0.75, kBounces = 0.85, kLater = 0.9, kShone = 0.92;
 
 /// Fewer were asked for to see just these.
 constexpr int kBouncesBeforeAll = 3;
@@ -72,10 +72,10 @@ class Gatherer {
     data->below.resize(count_);
     findStarts();
     const std::size_t packets = (starts_.size() + kPacket - 1) / kPacket;
-    const double direct_share = options_.bounces > 0 ? kOfDirect : 1.0;
+    WorkDone done(partOf(options_.progress, 0.0, options_.bounces > 0 ? kDirect : 1.0), packets);
     tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
       lookAround(p * kPacket, data);
-      step(direct_share / static_cast<double>(packets));
+      done.add();
     });
     UselessSamples useless{std::vector<bool>(count_), {}};
     for (std::size_t i = 0; i < count_; ++i) useless.are[i] = exchange_.seen[i].inside;
@@ -83,7 +83,7 @@ class Gatherer {
     const bool all = options_.bounces >= kBouncesBeforeAll;
     if (options_.bounces > 0) {
       const RoomBaker rooms(scene_, samples_, exchange_);
-      rooms.look(data, [this](double share) { step(kOfRooms * share); });
+      rooms.look(data, partOf(options_.progress, kDirect, kRooms));
       exchange_.useRooms();
       const SkyInGround in_ground(samples_, exchange_);
       SkyInGround::OfSamples mirrored = in_ground.find(*data);
@@ -94,12 +94,16 @@ class Gatherer {
       mirrored_ = std::move(mirrored.coefficients);
       exchange_.mirrored_sums = std::move(mirrored.sums);
     }
-    for (int bounce = 0; bounce < options_.bounces; ++bounce) passOn(data, kOfBounces / options_.bounces);
+    for (int bounce = 0; bounce < options_.bounces; ++bounce) {
+      const double each = (kBounces - kRooms) / options_.bounces, from = kRooms + each * bounce;
+      passOn(data, partOf(options_.progress, from, from + each));
+    }
     if (all) exchange_.addLaterBounces(data);
     const int bounces = all ? Exchange::kAllBounces : options_.bounces;
     const LampBounces lamps(scene_, samples_, exchange_, bounces);
-    if (bounces > 0 && options_.shining.any()) lamps.bakeShining(options_.shining, data);
-    data->lamps = lamps.bake();
+    if (bounces > 0 && options_.shining.any())
+      lamps.bakeShining(options_.shining, partOf(options_.progress, kLater, kShone), data);
+    data->lamps = lamps.bake(partOf(options_.progress, kShone, 1.0));
     return useless;
   }
 
@@ -115,12 +119,6 @@ class Gatherer {
     std::array<PackedTint, SkyPatches::kCoarse> tints;    ///< of each
     std::size_t hit_count = 0, up = 0;
   };
-
-  void step(double share) {
-    const std::lock_guard<std::mutex> lock(progress_mutex_);
-    done_ += share;
-    if (options_.progress) options_.progress(std::min(done_, 1.0));
-  }
 
   /// Of two samples on both sides of a sheet, rays of the first serve both.
   void findStarts() {
@@ -242,7 +240,7 @@ class Gatherer {
   }
 
   /// Adds one bounce: what every sample passes on of all that it has by now.
-  void passOn(TransportData* data, double share) {
+  void passOn(TransportData* data, const Progress& progress) {
     Coefficients sent;  // luminance × π
     const std::size_t all = exchange_.sentCount();
     sent.resize(all);
@@ -255,12 +253,12 @@ class Gatherer {
       others[i] = Exchange::sentBy(sends, has, sender);
       sent.set(i, sentRow(*data, sends, sender).data());
     });
-    step(0.2 * share);
     const std::size_t blocks = (count_ + kSamplesOfTask - 1) / kSamplesOfTask;
+    WorkDone done(partOf(progress, 0.2, 1.0), blocks);
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
       for (std::size_t i = block * kSamplesOfTask; i < std::min(count_, (block + 1) * kSamplesOfTask); ++i)
         receive(sent, others, i, data);
-      step(0.8 * share / static_cast<double>(blocks));
+      done.add();
     });
   }
 
@@ -333,8 +331,6 @@ class Gatherer {
   std::size_t count_;
   std::vector<std::uint32_t> starts_;  ///< samples whose rays are cast
   Coefficients mirrored_;              ///< sky by way of the ground as a mirror, luminance
-  std::mutex progress_mutex_;
-  double done_ = 0.0;
 };
 
 }  // namespace

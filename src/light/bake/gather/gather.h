@@ -2,23 +2,20 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "light/bake/gather/lamp_bounces.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/transport_data.h"
+#include "light/bake/samples/work_done.h"
 
 namespace sunlit::light {
-
-/// Share of the work done, 0 … 1; may come from any thread, but never from two at once.
-using GatherProgress = std::function<void(double)>;
 
 struct GatherOptions {
   int rays_per_patch = 3;
   int bounces = 3;
   ShiningLights shining;
-  GatherProgress progress;
+  Progress progress = nullptr;
 };
 
 /// Samples inside bodies, whose light is of no use.

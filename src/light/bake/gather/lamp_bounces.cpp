@@ -52,14 +52,17 @@ void storeGlow(const Eigen::Array3f& light, std::size_t sample, PassedOn* part) 
 }  // namespace
 
 /// What each sample has of these.
-std::vector<Arrived> LampBounces::lookFor(const std::vector<AreaLights::Piece>& pieces) const {
+std::vector<Arrived> LampBounces::lookFor(const std::vector<AreaLights::Piece>& pieces,
+                                          const Progress& progress) const {
   const AreaLights lights(scene_.rays, pieces);
   std::vector<Arrived> found(samples_.receivers.size());
   if (!lights.any()) return found;
+  WorkDone done(progress, found.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
     const Receiver& receiver = samples_.receivers[i];
     const AreaLights::Light light = receiver.coarse ? lights.about(receiver, i) : lights.at(receiver, i);
     found[i] = {light.above, light.below};
+    done.add();
   });
   return found;
 }
@@ -67,12 +70,12 @@ std::vector<Arrived> LampBounces::lookFor(const std::vector<AreaLights::Piece>& 
 /// What samples have of `lamps` by way of surfaces, of which `lit` are looked for. White walls of a room pass
 /// on as much of each other's light as they have straight from lamps: who looks into it through a window or a
 /// gap looks for that, too. How much it is rays alone tell well enough, since many surfaces add to it.
-std::vector<Arrived> LampBounces::passedOn(const StraightLight& lamps,
-                                           std::vector<AreaLights::Piece> lit) const {
+std::vector<Arrived> LampBounces::passedOn(const StraightLight& lamps, std::vector<AreaLights::Piece> lit,
+                                           const Progress& progress) const {
   const std::vector<Arrived> nothing(samples_.receivers.size());
   if (bounces_ < 1) return nothing;
   if (bounces_ == 1 || lit.empty()) {
-    const auto first = exchange_.receivedOf(exchange_.sentOf(lamps, nothing), lookFor(lit));
+    const auto first = exchange_.receivedOf(exchange_.sentOf(lamps, nothing), lookFor(lit, progress));
     return exchange_.passedOn(first, bounces_);
   }
   StraightLight met = lamps;
@@ -80,7 +83,7 @@ std::vector<Arrived> LampBounces::passedOn(const StraightLight& lamps,
   const auto first = exchange_.receivedOf(exchange_.sentOf(met, nothing), nothing);
   const std::vector<Arrived> has = exchange_.passedOn(first, bounces_ - 1);
   addBounced(has, &lit);
-  return exchange_.receivedOf(exchange_.sentOf(lamps, has), lookFor(lit));
+  return exchange_.receivedOf(exchange_.sentOf(lamps, has), lookFor(lit, partOf(progress, 0.3, 1.0)));
 }
 
 /// Adds what surfaces pass on of what they have besides.
@@ -96,14 +99,17 @@ void LampBounces::addBounced(const std::vector<Arrived>& has, std::vector<AreaLi
   }
 }
 
-BakedLamps LampBounces::bake() const {
+BakedLamps LampBounces::bake(const Progress& progress) const {
   const std::vector<scene::Lamp>& lamps = scene_.geometry.scene->lamps;
   BakedLamps baked;
   baked.first.push_back(0);
-  for (const LampSet& set : lampSets(lamps)) {
-    const std::vector<scene::Lamp> members = lampsOf(set, lamps);
+  const std::vector<LampSet> sets = lampSets(lamps);
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const std::vector<scene::Lamp> members = lampsOf(sets[i], lamps);
     const std::vector<LampBeam> beams(members.begin(), members.end());
-    store(passedOn(lampsOnSamples(scene_, samples_, beams), litPieces(scene_, beams)), &baked);
+    const double each = 1.0 / static_cast<double>(sets.size()), from = each * static_cast<double>(i);
+    const StraightLight straight = lampsOnSamples(scene_, samples_, beams);
+    store(passedOn(straight, litPieces(scene_, beams), partOf(progress, from, from + each)), &baked);
   }
   return baked;
 }
@@ -126,29 +132,34 @@ std::vector<bool> LampBounces::sending(const LookedFor& looked) const {
 }
 
 StraightLight LampBounces::straight(const AreaLights& shining, const LookedFor& looked,
-                                    std::vector<Arrived>* arrived) const {
+                                    const Progress& progress, std::vector<Arrived>* arrived) const {
   const std::size_t count = samples_.receivers.size();
   const std::vector<bool> sends = sending(looked);
   StraightLight lit(count);
+  WorkDone done(progress, count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     const AreaLights::Light light = shining.at(samples_.receivers[i], i);
     if (arrived) (*arrived)[i] = {light.above, light.below};
     lit.direct[i] = light.above + light.below;
     lit.lamp_m[i] = light.distance_m;
     if (sends[i]) lit.looked_for[i] = lookedFor(light.distance_m, looked.farthest_m) * lit.direct[i];
+    done.add();
   });
   return lit;
 }
 
-void LampBounces::bakeShining(const ShiningLights& shining, TransportData* data) const {
+void LampBounces::bakeShining(const ShiningLights& shining, const Progress& progress,
+                              TransportData* data) const {
   std::vector<Arrived> all(samples_.receivers.size());
   if (shining.baked.any()) {
-    const StraightLight lit = straight(shining.baked, {maySendShine, kFarthestByShining_m}, &all);
-    add(passedOn(lit, litPieces(scene_, shining.baked)), &all);
+    const StraightLight lit =
+        straight(shining.baked, {maySendShine, kFarthestByShining_m}, partOf(progress, 0.0, 0.25), &all);
+    add(passedOn(lit, litPieces(scene_, shining.baked), partOf(progress, 0.25, 0.5)), &all);
   }
   if (shining.compact.any()) {
-    const StraightLight lit = straight(shining.compact, {maySendLampLight, kFarthestLit_m}, nullptr);
-    add(passedOn(lit, litPieces(scene_, shining.beams)), &all);
+    const StraightLight lit =
+        straight(shining.compact, {maySendLampLight, kFarthestLit_m}, partOf(progress, 0.5, 0.75), nullptr);
+    add(passedOn(lit, litPieces(scene_, shining.beams), partOf(progress, 0.75, 1.0)), &all);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     storeGlow(all[i].above, i, &data->above);

@@ -4,6 +4,7 @@
 #include "light/bake/gather/exchange.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/transport_data.h"
+#include "light/bake/samples/work_done.h"
 #include "light/lamps/lamp_beam.h"
 
 namespace sunlit::light {
@@ -23,15 +24,16 @@ class LampBounces {
       : scene_(scene), samples_(samples), exchange_(exchange), bounces_(bounces) {}
 
   /// Of each of the scene's lampSets(). Parallel; the same bits for any number of threads.
-  BakedLamps bake() const;
+  BakedLamps bake(const Progress& progress) const;
 
   /// Sets PassedOn::glows of both parts: of what shines by way of surfaces, and of what is baked straight,
   /// too. Likewise.
-  void bakeShining(const ShiningLights& shining, TransportData* data) const;
+  void bakeShining(const ShiningLights& shining, const Progress& progress, TransportData* data) const;
 
  private:
-  std::vector<Arrived> passedOn(const StraightLight& lamps, std::vector<AreaLights::Piece> lit) const;
-  std::vector<Arrived> lookFor(const std::vector<AreaLights::Piece>& pieces) const;
+  std::vector<Arrived> passedOn(const StraightLight& lamps, std::vector<AreaLights::Piece> lit,
+                                const Progress& progress) const;
+  std::vector<Arrived> lookFor(const std::vector<AreaLights::Piece>& pieces, const Progress& progress) const;
   void addBounced(const std::vector<Arrived>& has, std::vector<AreaLights::Piece>* lit) const;
   /// Of surfaces that light, which of a triangle is looked for, and up to where.
   struct LookedFor {
@@ -40,7 +42,7 @@ class LampBounces {
   };
   std::vector<bool> sending(const LookedFor& looked) const;
   /// Light straight of what shines: `arrived` too, unless null.
-  StraightLight straight(const AreaLights& shining, const LookedFor& looked,
+  StraightLight straight(const AreaLights& shining, const LookedFor& looked, const Progress& progress,
                          std::vector<Arrived>* arrived) const;
 
   const BakeScene& scene_;

@@ -339,15 +339,16 @@ std::vector<RoomBaker::View> RoomBaker::lookFrom(const std::uint32_t* lookers, s
   return Looking(*this, receivers.data(), count).around(sphere);
 }
 
-void RoomBaker::look(TransportData* data, const std::function<void(double)>& step) const {
+void RoomBaker::look(TransportData* data, const Progress& progress) const {
   BakedRooms& rooms = data->rooms;
   rooms.samples = lookers();
   const std::size_t count = rooms.samples.size();
-  if (count == 0) return step(1.0);
+  if (count == 0) return;
   const RoomDirections sphere(std::clamp(2 * kMostLinks / count, kFewestDirections, kMostDirections));
   const bool tinted = !data->direct_tints.empty();
   std::vector<Packed> packed(count);
   const std::size_t packets = (count + kPacket - 1) / kPacket;
+  WorkDone done(progress, packets);
   tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
     const std::size_t first = p * kPacket;
     std::vector<View> views =
@@ -357,7 +358,7 @@ void RoomBaker::look(TransportData* data, const std::function<void(double)>& ste
       views[i].finish(samples_.receivers[sample], sample, data);
       packed[first + i] = pack(views[i].seen, tinted);
     }
-    step(1.0 / static_cast<double>(packets));
+    done.add();
   });
   std::size_t sum = 0;
   for (const Packed& room : packed) sum += room.links.size();

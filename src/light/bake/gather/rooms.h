@@ -1,12 +1,11 @@
 /// Samples in rooms look for light by more rays, and remember what they see: see BakedRooms.
 #pragma once
 
-#include <functional>
-
 #include "light/bake/gather/exchange.h"
 #include "light/bake/gather/room_directions.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/transport_data.h"
+#include "light/bake/samples/work_done.h"
 
 namespace sunlit::light {
 
@@ -18,8 +17,7 @@ class RoomBaker {
 
   /// Once `data` has direct light and tells what is hidden: finds the rooms and their links, and has these
   /// two known better there.
-  /// `step` gets each share of that work as it is done.
-  void look(TransportData* data, const std::function<void(double)>& step) const;
+  void look(TransportData* data, const Progress& progress) const;
   /// Adds what it takes to follow sun and moon there, for all bounces, but for BakedRooms::mirrored.
   void finish(BakedRooms* rooms) const;
 

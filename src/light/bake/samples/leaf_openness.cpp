@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <mutex>
 #include <stdexcept>
 
 #include "light/bake/samples/crown_shadows.h"
@@ -81,23 +80,21 @@ class Looker {
     if (groups_.empty()) openness_.first.own().clear();
   }
 
-  LeafOpenness look(const std::function<void(double)>& progress) {
+  LeafOpenness look(const Progress& progress) {
     std::vector<const Group*> groups;
     for (const auto& [key, group] : groups_) groups.push_back(&group);
     // The largest first, so that none is left alone at the end.
     std::stable_sort(groups.begin(), groups.end(),
                      [](const Group* a, const Group* b) { return a->masked.size() > b->masked.size(); });
-    std::size_t all = 0, done = 0;
+    std::size_t all = 0;
     for (const Group* group : groups) all += group->masked.size();
-    std::mutex mutex;
+    WorkDone done(progress, all);
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, groups.size(), 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
             lookFrom(*groups[i]);
-            const std::lock_guard<std::mutex> lock(mutex);
-            done += groups[i]->masked.size();
-            progress(static_cast<double>(done) / static_cast<double>(all));
+            done.add(groups[i]->masked.size());
           }
         },
         tbb::simple_partitioner());
@@ -221,8 +218,7 @@ SkyOpenness LeafOpenness::at(std::uint32_t triangle, const std::array<float, 3>&
 }
 
 LeafOpenness leafOpenness(const std::shared_ptr<const Geometry>& geometry,
-                          const std::vector<TriangleTraits>& traits,
-                          const std::function<void(double)>& progress) {
+                          const std::vector<TriangleTraits>& traits, const Progress& progress) {
   return Looker(geometry, traits).look(progress);
 }
 

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "light/bake/samples/triangle_kinds.h"
+#include "light/bake/samples/work_done.h"
 #include "light/patches/sky_openness.h"
 #include "light/patches/sky_patches.h"
 #include "sunlit/image/kept_array.h"
@@ -36,7 +36,6 @@ struct LeafOpenness {
 /// Parallel; the same for any number of threads. Throws std::runtime_error if the ray library fails or the
 /// grids take more than 4 GB.
 LeafOpenness leafOpenness(const std::shared_ptr<const Geometry>& geometry,
-                          const std::vector<TriangleTraits>& traits,
-                          const std::function<void(double)>& progress);
+                          const std::vector<TriangleTraits>& traits, const Progress& progress);
 
 }  // namespace sunlit::light

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "light/bake/samples/occupancy.h"
 #include "light/bake/samples/transport_data.h"
 #include "light/bake/samples/triangle_kinds.h"
+#include "light/bake/samples/work_done.h"
 
 namespace sunlit::light {
 
@@ -24,8 +24,6 @@ class MeshBuilder {
   /// Keeps references.
   MeshBuilder(const BakeScene& scene, const AreaLights& bright);
 
-  /// Gets the share done, 0 … 1, about.
-  using Progress = std::function<void(double)>;
   void refine(const RefineLimits& limits, const Progress& progress);
 
   /// Cells and roots; roots of other than large triangles are no cells.
@@ -35,8 +33,8 @@ class MeshBuilder {
   std::vector<std::array<std::uint32_t, 2>> hangs_between;
 
  private:
-  /// What is done of the work once cells are halved, and once they are cut at walls, about.
-  static constexpr double kHalved = 0.55, kCut = 0.75;
+  /// What is done of the work, about: once cells are halved, once they are cut at walls, and at sheets.
+  static constexpr double kHalved = 0.55, kWalls = 0.7, kCut = 0.75;
   /// Where cells that need halving are looked for.
   enum class Pass {
     kVaried,  ///< the first: where light differs between the corners

@@ -14,8 +14,10 @@ namespace sunlit::light {
 /// Of walls and sheets that cells go through, or end at.
 void MeshBuilder::separateSides(const Progress& progress) {
   const BakeScene scene{geometry_, rays_, traits_};
-  std::vector<std::uint32_t> changed = WallCuts(scene, &mesh, &index.nodes).cut();
-  const std::vector<SheetSides::Side> sides = SheetSides(scene, &mesh, &index.nodes).separate();
+  std::vector<std::uint32_t> changed =
+      WallCuts(scene, &mesh, &index.nodes).cut(partOf(progress, kHalved, kWalls));
+  const std::vector<SheetSides::Side> sides =
+      SheetSides(scene, &mesh, &index.nodes).separate(partOf(progress, kWalls, kCut));
   originals_.resize(index.nodes.size());
   std::iota(originals_.begin(), originals_.end(), 0u);
   has_sides_.resize(index.nodes.size());
@@ -27,7 +29,8 @@ void MeshBuilder::separateSides(const Progress& progress) {
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   pullByOwnCells(changed);
-  lookAroundAgain(changed, progress);
+  progress(kCut);
+  lookAroundAgain(changed, partOf(progress, kCut, 1.0));
   looked_ = index.nodes.size();
 }
 
@@ -48,12 +51,11 @@ void MeshBuilder::pullByOwnCells(const std::vector<std::uint32_t>& nodes) {
 
 void MeshBuilder::lookAroundAgain(const std::vector<std::uint32_t>& nodes, const Progress& progress) {
   constexpr std::size_t kAtOnce = 4096;
-  progress(kCut);
   for (std::size_t begin = 0; begin < nodes.size(); begin += kAtOnce) {
     const std::size_t end = std::min(begin + kAtOnce, nodes.size());
     lookAround({nodes.begin() + static_cast<std::ptrdiff_t>(begin),
                 nodes.begin() + static_cast<std::ptrdiff_t>(end)});
-    progress(kCut + (1.0 - kCut) * static_cast<double>(end) / static_cast<double>(nodes.size()));
+    progress(static_cast<double>(end) / static_cast<double>(nodes.size()));
   }
 }
 

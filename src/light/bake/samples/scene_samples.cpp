@@ -52,7 +52,7 @@ class Sampler {
   Sampler(const BakeScene& scene, const AreaLights& bright)
       : geometry_(scene.geometry), traits_(scene.traits), builder_(scene, bright) {}
 
-  SceneSamples sample(const RefineLimits& limits, const std::function<void(double)>& progress) {
+  SceneSamples sample(const RefineLimits& limits, const Progress& progress) {
     CloudRule small_rule = kSmallRule, foliage_rule = kFoliageRule;
     const SampleCloud small = cloudWithin(limits.nodes, &small_rule);
     std::size_t taken = small.receivers().size();
@@ -384,7 +384,7 @@ std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, cons
 }
 
 SceneSamples sampleScene(const BakeScene& scene, const AreaLights& bright, const RefineLimits& limits,
-                         const std::function<void(double)>& progress) {
+                         const Progress& progress) {
   SceneSamples samples = Sampler(scene, bright).sample(limits, progress);
   coupleSheets(scene, &samples);
   return samples;

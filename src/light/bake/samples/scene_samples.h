@@ -1,13 +1,13 @@
 /// Where in a scene transport is sampled, and how surfaces find their samples.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "light/bake/samples/mesh_builder.h"
 #include "light/bake/samples/probe.h"
 #include "light/bake/samples/transport_data.h"
 #include "light/bake/samples/triangle_kinds.h"
+#include "light/bake/samples/work_done.h"
 #include "light/shading/reflectances.h"
 
 namespace sunlit::light {
@@ -42,8 +42,7 @@ struct LaneHit {
 /// nothing.
 std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, const LaneHit& hit);
 
-/// `progress` gets the share done, 0 … 1, about.
 SceneSamples sampleScene(const BakeScene& scene, const AreaLights& bright, const RefineLimits& limits,
-                         const std::function<void(double)>& progress);
+                         const Progress& progress);
 
 }  // namespace sunlit::light

@@ -61,14 +61,18 @@ void stepOffSheets(const BakeScene& scene, std::size_t first, std::vector<MeshNo
 SheetSides::SheetSides(const BakeScene& scene, LightMesh* mesh, std::vector<MeshNode>* nodes)
     : scene_(scene), mesh_(mesh), nodes_(nodes) {}
 
-std::vector<SheetSides::Side> SheetSides::separate() {
+std::vector<SheetSides::Side> SheetSides::separate(const Progress& progress) {
   findCells();
   std::vector<Group> groups;
   for (std::size_t i = 0; i < around_.size(); ++i) {
     if (i == 0 || around_[i].node != around_[i - 1].node) groups.push_back({i, i, {}});
     groups.back().end = i + 1;
   }
-  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) { findSides(&groups[g]); });
+  WorkDone done(progress, groups.size());
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    findSides(&groups[g]);
+    done.add();
+  });
   std::vector<Side> found;
   for (const Group& group : groups) {
     const std::uint32_t sides = 1 + *std::max_element(group.sides.begin(), group.sides.end());

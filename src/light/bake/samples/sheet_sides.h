@@ -8,6 +8,7 @@
 #include "light/bake/samples/mesh_nodes.h"
 #include "light/bake/samples/transport_data.h"
 #include "light/bake/samples/triangle_kinds.h"
+#include "light/bake/samples/work_done.h"
 
 namespace sunlit::light {
 
@@ -26,7 +27,7 @@ class SheetSides {
     std::uint32_t original;  ///< which may be the same
   };
   /// All those that come of nodes with two sides or more.
-  std::vector<Side> separate();
+  std::vector<Side> separate(const Progress& progress = nullptr);
 
  private:
   /// Cells about one node, and the side that each is on.

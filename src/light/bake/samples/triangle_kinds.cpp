@@ -160,7 +160,8 @@ TriangleKind triangleKind(const Geometry& geometry, std::uint32_t t) {
   return longest < kLargeEdge_m && area < kLargeArea_m2 ? TriangleKind::kSmall : TriangleKind::kLarge;
 }
 
-std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeRays& rays) {
+std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeRays& rays,
+                                           const Progress& progress) {
   std::vector<TriangleTraits> traits(geometry.triangles.size());
   std::vector<Side> sides;
   for (std::uint32_t t = 0; t < traits.size(); ++t) {
@@ -178,6 +179,8 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
   for (std::size_t place = 0; place < kTrianglePlaces.size() && !sides.empty(); ++place) {
     std::vector<std::uint8_t> useless(sides.size()), sealed(sides.size());
     const std::size_t packets = (sides.size() + RayPacket::kSize - 1) / RayPacket::kSize;
+    // From the first place all look, from others few.
+    WorkDone done(place == 0 ? progress : nullptr, packets);
     tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
       const std::size_t first = p * RayPacket::kSize;
       const std::size_t end = std::min(first + RayPacket::kSize, sides.size());
@@ -192,6 +195,7 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
         sealed[i] = outlook.sealed() ? 1 : 0;
         useless[i] = outlook.sealed() || outlook.buried() ? 1 : 0;
       }
+      done.add();
     });
     // What is hidden in one place may be seen in another: a slab half sunk into the ground.
     std::vector<Side> left;

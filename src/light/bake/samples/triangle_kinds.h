@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "light/bake/samples/bake_rays.h"
+#include "light/bake/samples/work_done.h"
 #include "sunlit/light/geometry.h"
 
 namespace sunlit::light {
@@ -41,7 +42,8 @@ struct BakeScene {
 };
 
 /// Parallel; the same for any number of threads.
-std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeRays& rays);
+std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeRays& rays,
+                                           const Progress& progress = nullptr);
 
 /// Normal of a side: 0 front, 1 back.
 inline Eigen::Vector3f sideNormal(const Geometry& geometry, std::uint32_t triangle, int side) {

@@ -31,9 +31,9 @@ std::ptrdiff_t countOf(const Cuts& cuts) {
 WallCuts::WallCuts(const BakeScene& scene, LightMesh* mesh, std::vector<MeshNode>* nodes)
     : scene_(scene), mesh_(mesh), nodes_(nodes) {}
 
-std::vector<std::uint32_t> WallCuts::cut() {
+std::vector<std::uint32_t> WallCuts::cut(const Progress& progress) {
   constexpr int kMostPasses = 4;
-  findCrossings();
+  findCrossings(progress);
   for (int pass = 0; pass < kMostPasses && (divideRooms() || divideCorners()); ++pass) findCrossings();
   for (Crossing& crossing : crossings_) {
     crossing.before = addNode(crossing.edge, crossing.into);
@@ -57,7 +57,7 @@ void WallCuts::visitLeaves(const Visit& visit) {
 }
 
 /// Of edges that were there before, all is known.
-void WallCuts::findCrossings() {
+void WallCuts::findCrossings(const Progress& progress) {
   std::vector<Edge> edges = edgesAtWalls();
   keepThose([&](const Crossing& one) { return std::binary_search(edges.begin(), edges.end(), one.edge); });
   const std::vector<Crossing> known = std::move(crossings_);
@@ -67,7 +67,7 @@ void WallCuts::findCrossings() {
   crossings_.assign(fresh.size(), {});
   for (std::size_t i = 0; i < fresh.size(); ++i) crossings_[i].edge = fresh[i];
   looked_at_ = std::move(edges);
-  findWalls();
+  findWalls(progress);
   keepThose([](const Crossing& one) { return one.into >= 0.0f; });
   findRooms();
   keepThose([this](const Crossing& one) { return one.is_room || partsLight(one); });
@@ -184,8 +184,9 @@ std::vector<WallCuts::Edge> WallCuts::edgesAtWalls() const {
 /// For each of all crossings a ray from `starts` to the edge's other end, and where that meets a wall one to
 /// its first end; `visit` gets those where both do, what the two met, and as which lane.
 template <typename Starts, typename Visit>
-void WallCuts::castTwice(const Starts& starts, const Visit& visit) {
+void WallCuts::castTwice(const Starts& starts, const Progress& progress, const Visit& visit) {
   const std::size_t packets = (crossings_.size() + kPacket - 1) / kPacket;
+  WorkDone done(progress, packets);
   tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
     const std::size_t begin = p * kPacket, count = std::min(kPacket, crossings_.size() - begin);
     RayPacket onwards, back;
@@ -199,6 +200,7 @@ void WallCuts::castTwice(const Starts& starts, const Visit& visit) {
     }
     HitPacket met_onwards, met_back;
     scene_.rays.cast(onwards, &met_onwards);
+    done.add();
     bool any = false;
     for (std::size_t i = 0; i < count; ++i) {
       if (!meetsWall(met_onwards, i)) continue;
@@ -214,11 +216,11 @@ void WallCuts::castTwice(const Starts& starts, const Visit& visit) {
 }
 
 /// By a ray from either end.
-void WallCuts::findWalls() {
+void WallCuts::findWalls(const Progress& progress) {
   const auto starts = [](const Crossing&, const Eigen::Vector3f& one, const Eigen::Vector3f& other) {
     return std::make_pair(other, one);
   };
-  castTwice(starts, [&](Crossing* crossing, const BothHits& hits) {
+  castTwice(starts, progress, [&](Crossing* crossing, const BothHits& hits) {
     const Eigen::Vector3f way = wayOf(crossing->edge);
     // Of a sheet both are the same, but for rounding.
     const auto [into, out_of] =
@@ -236,7 +238,7 @@ void WallCuts::findRooms() {
     const Eigen::Vector3f middle = one + 0.5f * (crossing.into + crossing.out_of) * (other - one);
     return std::make_pair(middle, middle);
   };
-  castTwice(starts, [&](Crossing* crossing, const BothHits& hits) {
+  castTwice(starts, nullptr, [&](Crossing* crossing, const BothHits& hits) {
     const Eigen::Vector3f way = wayOf(crossing->edge);
     crossing->is_room = (crossing->out_of - crossing->into) * way.norm() > kRoom_m &&
                         !leavesBody(hits.onwards.triangle[hits.lane], way) &&

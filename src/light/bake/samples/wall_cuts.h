@@ -10,6 +10,7 @@
 #include "light/bake/samples/mesh_nodes.h"
 #include "light/bake/samples/transport_data.h"
 #include "light/bake/samples/triangle_kinds.h"
+#include "light/bake/samples/work_done.h"
 
 namespace sunlit::light {
 
@@ -20,7 +21,7 @@ class WallCuts {
   /// Keeps the pointers, and references of the scene.
   WallCuts(const BakeScene& scene, LightMesh* mesh, std::vector<MeshNode>* nodes);
   /// The corners of what comes of cells that were cut; new ones are at the end of all nodes.
-  std::vector<std::uint32_t> cut();
+  std::vector<std::uint32_t> cut(const Progress& progress = nullptr);
 
  private:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;  ///< nodes, the smaller number first
@@ -47,13 +48,13 @@ class WallCuts {
 
   template <typename Visit>
   void visitLeaves(const Visit& visit);
-  void findCrossings();
+  void findCrossings(const Progress& progress = nullptr);
   template <typename Wanted>
   void keepThose(const Wanted& wanted);
   std::vector<Edge> edgesAtWalls() const;
   template <typename Starts, typename Visit>
-  void castTwice(const Starts& starts, const Visit& visit);
-  void findWalls();
+  void castTwice(const Starts& starts, const Progress& progress, const Visit& visit);
+  void findWalls(const Progress& progress);
   void findRooms();
   Eigen::Vector3f wayOf(const Edge& edge) const;
   bool meetsWall(const HitPacket& hits, std::size_t lane) const;
