@@ -10,7 +10,7 @@ namespace sunlit::light {
 
 /// atan(x) to single precision (Abramowitz & Stegun, "Handbook of Mathematical Functions", 1964, 4.4.49, 2e-8
 /// for |x| ≤ 1), without a branch.
-inline __attribute__((always_inline)) float arcTangent(float x) {
+inline float arcTangent(float x) {
   const float size = std::abs(x), inner = size > 1.0f ? 1.0f / size : size, square = inner * inner;
   const float high =
       -0.0752896400f + square * (0.0429096138f + square * (-0.0161657367f + square * 0.0028662257f));
@@ -29,7 +29,7 @@ struct TubeLight {
 
 /// At a place `away_m` > 0 from the line, of the stretch from `from_m` to `to_m`, in m from its foot on the
 /// line: ∫ ρ (a + u e) / (ρ² + u²)² du, as in Heitz & Hill, "Real-Time Line- and Disk-Light Shading", 2017.
-inline __attribute__((always_inline)) TubeLight tubeLight(float away_m, float from_m, float to_m) {
+inline TubeLight tubeLight(float away_m, float from_m, float to_m) {
   const float square = away_m * away_m, per_m = 1.0f / away_m;
   const float per_from = 1.0f / (square + from_m * from_m), per_to = 1.0f / (square + to_m * to_m);
   // Their difference as one, since beyond an end they are nearly equal.
