@@ -11,20 +11,21 @@
 namespace sunlit::scene {
 namespace {
 
-[[noreturn]] void refuse(const std::string& file) {
+[[noreturn]] void refuse(const std::string& file, const std::string& others) {
   throw std::runtime_error(file +
                            ": this build of sunlit reads no SDF, as libsdformat was not found when it was "
-                           "configured; it reads .urdf, .dae, .gltf, .glb and .obj");
+                           "configured; it reads " +
+                           others);
 }
 
 }  // namespace
 
 Scene loadSdf(const std::string& file, const ResourceFinder&) {
-  refuse(file);
+  refuse(file, "worlds that end in .urdf, .dae, .gltf, .glb or .obj");
 }
 
 Robot loadSdfRobot(const std::string& file, const ResourceFinder&) {
-  refuse(file);
+  refuse(file, "robots that end in .urdf or .xml");
 }
 
 std::map<std::string, std::vector<Lamp>> urdfLamps(const std::string& text, SceneBuilder& builder) {

@@ -265,6 +265,16 @@ TEST_F(UrdfFile, SdfModelsAreRobotsToo) {
   EXPECT_NE(errorOfRobot(write("r.txt", "")).find("must end in"), std::string::npos);
 }
 
+#if SUNLIT_SDFORMAT_VERSION == 0
+TEST_F(UrdfFile, RobotsOfSdfAreRefusedByWhatRobotsMayBeWhereNoneIsRead) {
+  const std::string no_sdf =
+      ": this build of sunlit reads no SDF, as libsdformat was not found when it was configured; it reads ";
+  const std::string file = write("m.sdf", "<sdf version='1.9'/>");
+  EXPECT_EQ(errorOfRobot(file), file + no_sdf + "robots that end in .urdf or .xml");
+  EXPECT_EQ(errorOf(file), file + no_sdf + "worlds that end in .urdf, .dae, .gltf, .glb or .obj");
+}
+#endif
+
 TEST_F(UrdfFile, ThatIsTooDeepOrTooFarIsRefused) {
   std::string deep = "<robot name='r'><link name='a'>";
   for (int i = 0; i < 100000; ++i) deep += "<a>";
