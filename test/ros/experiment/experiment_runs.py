@@ -119,18 +119,26 @@ class ExperimentRuns(unittest.TestCase):
             file.write(boxes.replace('<world name="two_boxes">', '<world name="two_boxes">' + content))
         return world
 
+    def skip_without_sdf(self, run):
+        """Once it has ended."""
+        if "this build of sunlit reads no SDF" in run.said():
+            self.skipTest("needs libsdformat 12 or 9: this build of sunlit reads no SDF")
+
     def test_what_the_world_has_amiss_is_said_once(self):
         site = "<latitude_deg>47.4</latitude_deg><longitude_deg>8.5</longitude_deg><elevation>400</elevation>"
         world = self.world_with("<scene><fog><type>linear</type></fog></scene><spherical_coordinates>%s</spherical_coordinates>" % site)
         for given, times in (({}, 1), ({"site": "[47.4, 8.5, 400]"}, 0)):
             run = small_experiment(os.path.join(self.folder, "amiss%d" % times), world=world, poses=6, **given)
-            self.assertEqual(run.end(), 0, run.said())
+            status = run.end()
+            self.skip_without_sdf(run)
+            self.assertEqual(status, 0, run.said())
             self.assertEqual(run.said().count("fog is a parameter of the weather"), 1, run.said())
             self.assertEqual(run.said().count("the sun is of another site"), times, run.said())
 
     def test_why_a_world_cannot_be_loaded_is_said_once(self):
         run = small_experiment(os.path.join(self.folder, "gone"), world=self.world_with("<include><uri>model://gone</uri></include>"))
         self.assertNotEqual(run.end(), 0)
+        self.skip_without_sdf(run)
         self.assertEqual(run.said().count("there is no model://gone"), 1, run.said())
         self.assertEqual(run.left_running(), [])
 
