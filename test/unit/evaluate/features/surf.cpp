@@ -31,7 +31,7 @@ Features featuresOf(const cv::Mat& image, const SurfOptions& options = {}, const
   return f;
 }
 
-cv::Mat blob(cv::Size size, cv::Point2d centre, double sigma, double height = 100) {
+cv::Mat1b blob(cv::Size size, cv::Point2d centre, double sigma, double height = 100) {
   cv::Mat1b image(size);
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
@@ -39,7 +39,7 @@ cv::Mat blob(cv::Size size, cv::Point2d centre, double sigma, double height = 10
       image(y, x) = cv::saturate_cast<std::uint8_t>(100 + height * std::exp(-r2 / (2 * sigma * sigma)));
     }
   }
-  return std::move(image);
+  return image;
 }
 
 double angleBetween(double a_deg, double b_deg) {

@@ -27,14 +27,14 @@ inline void addNoise(cv::Mat1i& sum, int wavelength, int amplitude) {
   }
 }
 
-inline cv::Mat madePicture(int cols, int rows) {
+inline cv::Mat1b madePicture(int cols, int rows) {
   cv::Mat1i sum = cv::Mat1i::zeros(rows, cols);
   for (int wavelength = 3; wavelength <= 48; wavelength *= 2) addNoise(sum, wavelength, 12 + wavelength / 4);
   cv::Mat1b picture(rows, cols);
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < cols; ++x) picture(y, x) = cv::saturate_cast<std::uint8_t>(128 + sum(y, x) / 60);
   }
-  return std::move(picture);
+  return picture;
 }
 
 }  // namespace sunlit::test
