@@ -279,9 +279,10 @@ TEST(Rooms, AreLitAlikeAlongTheirCorners) {
   for (const sky::Daylight& day : {onlySun(150.0, 50.0), uniformDay(100.0f)}) {
     const Errors found =
         errors(fast(windowedRoom(), places, day), traced(windowedRoom(), places, day, 20000));
-    // Measured 2.9 and 7.4 % by the sun, 2.4 and 7.2 % by the sky; 5.4 and 23 %, 3.9 and 18 % where some of
-    // these samples knew what they see and others did not.
-    EXPECT_LT(found.mean, 0.035);
+    // Measured 2.9 and 7.4 % by the sun, 2.4 and 7.2 % by the sky with AVX-512, where without it rays along
+    // edges end otherwise: up to 3.7 %; 5.4 and 23 %, 3.9 and 18 % where some of these samples knew what they
+    // see and others did not.
+    EXPECT_LT(found.mean, 0.045);
     EXPECT_LT(found.worst, 0.1);
   }
 }

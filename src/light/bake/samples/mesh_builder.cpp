@@ -284,7 +284,6 @@ void MeshBuilder::refine(const RefineLimits& limits, const Progress& progress) {
       halveMostUrgent(limits, pass);
     }
     active_.swap(left_);
-    uncut_ = true;
   }
   separateSides(progress);
   findHanging();
@@ -299,9 +298,8 @@ void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
   tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
     const LightMesh::Cell& cell = mesh.cells[active_[i]];
     urgencies[i] = urgency(cell, limits.finest_m, pass);
-    if (urgencies[i] <= 1.0f && !uncut_ && cut(cell, limits.finest_m)) urgencies[i] = kCutUrgency;
+    if (urgencies[i] <= 1.0f && cut(cell, limits.finest_m)) urgencies[i] = kCutUrgency;
   });
-  uncut_ = false;
   std::vector<Split> splits;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     if (urgencies[i] > 1.0f) {

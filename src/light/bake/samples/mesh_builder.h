@@ -72,7 +72,6 @@ class MeshBuilder {
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of halved edges
   std::vector<std::uint32_t> active_;                         ///< leaves that may still be halved
   std::vector<std::uint32_t> left_;       ///< leaves that were not halved in the first pass
-  bool uncut_ = false;                    ///< no wall stands amid any of active_
   std::vector<std::uint32_t> originals_;  ///< of each node: itself, or SheetSides::Side::original
   std::vector<bool> has_sides_;           ///< of each original
   std::size_t looked_ = 0;                ///< how many nodes have looked around

@@ -141,6 +141,15 @@ void promoteWhatSticksThrough(const BakeRays& rays, const Geometry& geometry,
     if (through[i] != 0) (*traits)[small[i]].kind = TriangleKind::kLarge;
 }
 
+/// Both of what is no leaf, all fronts first.
+std::vector<Side> sidesOf(const std::vector<TriangleTraits>& traits) {
+  std::vector<Side> sides;
+  for (const int side : {0, 1})
+    for (std::uint32_t t = 0; t < traits.size(); ++t)
+      if (!isLeaf(traits[t].kind)) sides.push_back({t, side});
+  return sides;
+}
+
 }  // namespace
 
 TriangleKind triangleKind(const Geometry& geometry, std::uint32_t t) {
@@ -163,15 +172,9 @@ TriangleKind triangleKind(const Geometry& geometry, std::uint32_t t) {
 std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeRays& rays,
                                            const Progress& progress) {
   std::vector<TriangleTraits> traits(geometry.triangles.size());
-  std::vector<Side> sides;
-  for (std::uint32_t t = 0; t < traits.size(); ++t) {
-    traits[t].kind = triangleKind(geometry, t);
-    if (isLeaf(traits[t].kind)) continue;
-    sides.push_back({t, 0});
-    sides.push_back({t, 1});
-  }
+  for (std::uint32_t t = 0; t < traits.size(); ++t) traits[t].kind = triangleKind(geometry, t);
+  std::vector<Side> sides = sidesOf(traits);
   promoteWhatSticksThrough(rays, geometry, &traits);
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.side < b.side; });
   Surrounding around{geometry, rays, {}, std::vector<std::atomic<bool>>(traits.size())};
   const SkyPatches patches(1);
   for (std::size_t i = 0; i < patches.coarseRays().size(); i += 6)

@@ -1,15 +1,14 @@
 #include "light/bake/samples/wall_cuts.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace sunlit::light {
 namespace {
 
 constexpr float kRoom_m = 0.01f;  // between two sheets: there may be a room
+constexpr std::size_t kEdgesAtOnce = kPacket / 2;
 
 /// Whether light may differ much between two places: of a sign or a fence both sides see much the same sky,
 /// and the nodes for cuts there are better spent elsewhere. Rooms may differ by lamps.
@@ -56,31 +55,18 @@ void WallCuts::visitLeaves(const Visit& visit) {
     if (!mesh_->cells[c].inner()) visit(c);
 }
 
-/// Of edges that were there before, all is known.
 void WallCuts::findCrossings(const Progress& progress) {
-  std::vector<Edge> edges = edgesAtWalls();
-  keepThose([&](const Crossing& one) { return std::binary_search(edges.begin(), edges.end(), one.edge); });
-  const std::vector<Crossing> known = std::move(crossings_);
-  std::vector<Edge> fresh;
-  std::set_difference(edges.begin(), edges.end(), looked_at_.begin(), looked_at_.end(),
-                      std::back_inserter(fresh));
-  crossings_.assign(fresh.size(), {});
-  for (std::size_t i = 0; i < fresh.size(); ++i) crossings_[i].edge = fresh[i];
-  looked_at_ = std::move(edges);
+  crossings_ = edgesAtWalls();
   findWalls(progress);
   keepThose([](const Crossing& one) { return one.into >= 0.0f; });
   findRooms();
   keepThose([this](const Crossing& one) { return one.is_room || partsLight(one); });
-  const auto added = static_cast<std::ptrdiff_t>(crossings_.size());
-  crossings_.insert(crossings_.end(), known.begin(), known.end());
-  std::inplace_merge(crossings_.begin(), crossings_.begin() + added, crossings_.end(),
-                     [](const Crossing& a, const Crossing& b) { return a.edge < b.edge; });
 }
 
 template <typename Wanted>
 void WallCuts::keepThose(const Wanted& wanted) {
-  const auto unwanted = [&](const Crossing& one) { return !wanted(one); };
-  crossings_.erase(std::remove_if(crossings_.begin(), crossings_.end(), unwanted), crossings_.end());
+  const auto kept = std::stable_partition(crossings_.begin(), crossings_.end(), wanted);
+  crossings_.erase(kept, crossings_.end());
 }
 
 /// Where an edge passes through the corner of a room, it gets a node in there. Returns whether one did.
@@ -164,7 +150,7 @@ std::optional<Eigen::Vector3f> WallCuts::cornerWithin(std::uint32_t cell, std::s
 }
 
 /// Those near enough to something for a wall to stand on them.
-std::vector<WallCuts::Edge> WallCuts::edgesAtWalls() const {
+std::vector<WallCuts::Crossing> WallCuts::edgesAtWalls() const {
   std::vector<Edge> edges;
   for (const LightMesh::Cell& cell : mesh_->cells) {
     if (cell.inner()) continue;
@@ -176,42 +162,35 @@ std::vector<WallCuts::Edge> WallCuts::edgesAtWalls() const {
       if (near && (from.valid || to.valid)) edges.push_back(std::minmax(a, b));
     }
   }
-  tbb::parallel_sort(edges.begin(), edges.end());
+  std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
+  std::vector<Crossing> found(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) found[i].edge = edges[i];
+  return found;
 }
 
-/// For each of all crossings a ray from `starts` to the edge's other end, and where that meets a wall one to
-/// its first end; `visit` gets those where both do, what the two met, and as which lane.
+/// Two rays for each of all crossings, each of which goes from `starts` to the edge's one and other end;
+/// `visit` gets the crossing and, as a lane, what its first ray met.
 template <typename Starts, typename Visit>
 void WallCuts::castTwice(const Starts& starts, const Progress& progress, const Visit& visit) {
-  const std::size_t packets = (crossings_.size() + kPacket - 1) / kPacket;
+  const std::size_t packets = (crossings_.size() + kEdgesAtOnce - 1) / kEdgesAtOnce;
   WorkDone done(progress, packets);
   tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
-    const std::size_t begin = p * kPacket, count = std::min(kPacket, crossings_.size() - begin);
-    RayPacket onwards, back;
-    for (std::size_t i = 0; i < kPacket; ++i) {
+    const std::size_t begin = p * kEdgesAtOnce;
+    const std::size_t count = std::min(kEdgesAtOnce, crossings_.size() - begin);
+    RayPacket packet;
+    HitPacket hits;
+    for (std::size_t i = 0; i < kEdgesAtOnce; ++i) {
       const Crossing& crossing = crossings_[begin + std::min(i, count - 1)];
       const auto [a, b] = crossing.edge;
       const Eigen::Vector3f one = (*nodes_)[a].aboveBumps(), other = (*nodes_)[b].aboveBumps();
       const auto [to_one, to_other] = starts(crossing, one, other);
-      onwards.set(i, to_other, other - to_other, i < count);
-      back.set(i, to_one, one - to_one, false);
+      packet.set(2 * i, to_other, other - to_other, i < count);
+      packet.set(2 * i + 1, to_one, one - to_one, i < count);
     }
-    HitPacket met_onwards, met_back;
-    scene_.rays.cast(onwards, &met_onwards);
+    scene_.rays.cast(packet, &hits);
     done.add();
-    bool any = false;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!meetsWall(met_onwards, i)) continue;
-      back.valid[i] = -1;
-      any = true;
-    }
-    if (!any) return;
-    scene_.rays.cast(back, &met_back);
-    for (std::size_t i = 0; i < count; ++i)
-      if (back.valid[i] != 0 && meetsWall(met_back, i))
-        visit(&crossings_[begin + i], BothHits{met_onwards, met_back, i});
+    for (std::size_t i = 0; i < count; ++i) visit(&crossings_[begin + i], hits, 2 * i);
   });
 }
 
@@ -220,15 +199,15 @@ void WallCuts::findWalls(const Progress& progress) {
   const auto starts = [](const Crossing&, const Eigen::Vector3f& one, const Eigen::Vector3f& other) {
     return std::make_pair(other, one);
   };
-  castTwice(starts, progress, [&](Crossing* crossing, const BothHits& hits) {
+  castTwice(starts, progress, [&](Crossing* crossing, const HitPacket& hits, std::size_t lane) {
     const Eigen::Vector3f way = wayOf(crossing->edge);
+    if (!meetsWall(hits, lane) || !meetsWall(hits, lane + 1)) return;
     // Of a sheet both are the same, but for rounding.
-    const auto [into, out_of] =
-        std::minmax({hits.onwards.distance[hits.lane], 1.0f - hits.back.distance[hits.lane]});
+    const auto [into, out_of] = std::minmax({hits.distance[lane], 1.0f - hits.distance[lane + 1]});
     if (std::max(std::min(into, 1.0f - out_of), out_of - into) * way.norm() < kOnIt_m) return;
     crossing->into = into;
     crossing->out_of = out_of;
-    crossing->walls = {hits.onwards.triangle[hits.lane], hits.back.triangle[hits.lane]};
+    crossing->walls = {hits.triangle[lane], hits.triangle[lane + 1]};
   });
 }
 
@@ -238,11 +217,11 @@ void WallCuts::findRooms() {
     const Eigen::Vector3f middle = one + 0.5f * (crossing.into + crossing.out_of) * (other - one);
     return std::make_pair(middle, middle);
   };
-  castTwice(starts, nullptr, [&](Crossing* crossing, const BothHits& hits) {
+  castTwice(starts, nullptr, [&](Crossing* crossing, const HitPacket& hits, std::size_t lane) {
     const Eigen::Vector3f way = wayOf(crossing->edge);
-    crossing->is_room = (crossing->out_of - crossing->into) * way.norm() > kRoom_m &&
-                        !leavesBody(hits.onwards.triangle[hits.lane], way) &&
-                        !leavesBody(hits.back.triangle[hits.lane], -way);
+    crossing->is_room = (crossing->out_of - crossing->into) * way.norm() > kRoom_m && meetsWall(hits, lane) &&
+                        !leavesBody(hits.triangle[lane], way) && meetsWall(hits, lane + 1) &&
+                        !leavesBody(hits.triangle[lane + 1], -way);
   });
 }
 

@@ -39,11 +39,6 @@ class WallCuts {
     float share;              ///< of the edge that lies before it
     std::uint32_t near, far;  ///< nodes
   };
-  /// What the rays along an edge met, as one of the lanes of each.
-  struct BothHits {
-    const HitPacket &onwards, &back;
-    std::size_t lane;
-  };
   using Cuts = std::array<const Crossing*, 3>;  ///< of a cell's edges, from each corner to the next; or null
 
   template <typename Visit>
@@ -51,7 +46,7 @@ class WallCuts {
   void findCrossings(const Progress& progress = nullptr);
   template <typename Wanted>
   void keepThose(const Wanted& wanted);
-  std::vector<Edge> edgesAtWalls() const;
+  std::vector<Crossing> edgesAtWalls() const;
   template <typename Starts, typename Visit>
   void castTwice(const Starts& starts, const Progress& progress, const Visit& visit);
   void findWalls(const Progress& progress);
@@ -78,7 +73,6 @@ class WallCuts {
   LightMesh* mesh_;
   std::vector<MeshNode>* nodes_;
   std::vector<std::uint32_t> touched_;
-  std::vector<Edge> looked_at_;      ///< those whose crossings are known, in order
   std::vector<Crossing> crossings_;  ///< by edge
 };
 
