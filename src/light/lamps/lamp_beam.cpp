@@ -203,7 +203,7 @@ LampBeam::Stretch LampBeam::withinCone(const Eigen::Vector3f& start, const Eigen
 
 void LampBeam::shares(const Points& points, float* shares) const {
   constexpr float kSquare = 2.0f, kLinear = 1.0f;
-  if (lamp_.isSpot() && lamp_.exponent != kSquare && lamp_.exponent != kLinear) {
+  if (isTube() || (lamp_.isSpot() && lamp_.exponent != kSquare && lamp_.exponent != kLinear)) {
     for (std::size_t i = 0; i < points.count; ++i) shares[i] = share({points.x[i], points.y[i], points.z[i]});
     return;
   }
@@ -212,10 +212,6 @@ void LampBeam::shares(const Points& points, float* shares) const {
             per_range_, least_m_, kNearest_m, lamp_.isSpot() ? cos_outer_ : -3.0f,
             lamp_.isSpot() ? per_cosine_ : 1.0f, lamp_.exponent == kSquare},
            points, shares);
-  if (isTube()) {
-    for (std::size_t i = 0; i < points.count; ++i)
-      shares[i] = lightOfTube({points.x[i], points.y[i], points.z[i]}).norm();
-  }
   if (kind_ != Kind::kBody) return;
   for (std::size_t i = 0; i < points.count; ++i)
     shares[i] *= shape(Eigen::Vector3f(points.x[i], points.y[i], points.z[i]) - lamp_.position);

@@ -276,13 +276,14 @@ std::vector<Looked> topsOfWalls(int count, float step_m) {
 
 TEST(Rooms, AreLitAlikeAlongTheirCorners) {
   const std::vector<Looked> places = topsOfWalls(11, 0.375f);
-  for (const sky::Daylight& day : {onlySun(150.0, 50.0), uniformDay(100.0f)}) {
+  // Measured 2.9 and 7.4 % by the sun, 2.4 and 7.2 % by the sky, and on another processor, the same sources,
+  // 3.7 and 8.6 %, 2.2 and 6.9 %; 5.4 and 23 %, 3.9 and 18 % where some of these samples knew what they see
+  // and others did not.
+  for (const auto& [day, worst_mean] :
+       {std::pair(onlySun(150.0, 50.0), 0.045), {uniformDay(100.0f), 0.035}}) {
     const Errors found =
         errors(fast(windowedRoom(), places, day), traced(windowedRoom(), places, day, 20000));
-    // Measured 2.9 and 7.4 % by the sun, 2.4 and 7.2 % by the sky with AVX-512, where without it rays along
-    // edges end otherwise: up to 3.7 %; 5.4 and 23 %, 3.9 and 18 % where some of these samples knew what they
-    // see and others did not.
-    EXPECT_LT(found.mean, 0.045);
+    EXPECT_LT(found.mean, worst_mean);
     EXPECT_LT(found.worst, 0.1);
   }
 }
