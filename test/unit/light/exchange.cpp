@@ -30,35 +30,78 @@ SceneSamples twoWalls(std::size_t others) {
   return samples;
 }
 
-/// Of the first wall, on which 1 lx falls.
-float passedOnBetween(const SceneSamples& samples) {
-  const SkyPatches patches(1);
-  const BakedRooms rooms;
-  Exchange exchange(samples, patches, rooms);
-  for (std::uint32_t i = 0; i < 2 * kWall; ++i) {
-    SampleHits& seen = exchange.seen[i];
-    for (int k = 0; k < SkyPatches::kCoarse; ++k) {
-      const bool up = k < SkyPatches::kAbove;
-      seen.hits.push_back(SampleAndByte::of((i + kWall) % (2 * kWall),
-                                            static_cast<std::uint32_t>(up ? k : k - SkyPatches::kAbove)));
+/// What samples of the walls see: each all over the one across.
+struct Walls {
+  explicit Walls(std::size_t others) : samples(twoWalls(others)), exchange(samples, patches, rooms) {
+    for (std::uint32_t i = 0; i < 2 * kWall; ++i) {
+      SampleHits& seen = exchange.seen[i];
+      // Rays that leave a wall backwards count nothing.
+      for (int k = 0; k < SkyPatches::kCoarse; ++k) {
+        const bool up = k < SkyPatches::kAbove;
+        seen.hits.push_back(SampleAndByte::of((i + kWall) % (2 * kWall),
+                                              static_cast<std::uint32_t>(up ? k : k - SkyPatches::kAbove)));
+      }
+      seen.up = SkyPatches::kAbove;
+      seen.scale_up = seen.scale_down = 1.0f;
     }
-    seen.up = SkyPatches::kAbove;
-    seen.scale_up = seen.scale_down = 1.0f;
   }
-  // Rays that leave a wall backwards count nothing.
-  StraightLight lamps(samples.receivers.size());
-  for (std::uint32_t i = 0; i < kWall; ++i) lamps.direct[i].setOnes();
-  const std::vector<Arrived> nothing(samples.receivers.size());
-  const Arrived has = exchange.passedOn(exchange.receivedOf(exchange.sentOf(lamps, nothing), nothing),
-                                        Exchange::kAllBounces)[0];
-  return has.above[1] + has.below[1];
+  /// Of `light`, lx, on samples from `begin` to `end`.
+  Exchange::FirstBounce firstBounce(std::uint32_t begin, std::uint32_t end,
+                                    const Eigen::Array3f& light) const {
+    StraightLight lamps(samples.receivers.size());
+    for (std::uint32_t i = begin; i < end; ++i) lamps.direct[i] = light;
+    const std::vector<Arrived> nothing(samples.receivers.size());
+    return {exchange.receivedOf(exchange.sentOf(lamps, nothing), nothing), Exchange::kAllBounces};
+  }
+
+  SceneSamples samples;
+  SkyPatches patches{1};
+  BakedRooms rooms;
+  Exchange exchange;
+};
+
+/// Of the first wall, on which 1 lx falls.
+float passedOnBetween(std::size_t others) {
+  const Walls walls(others);
+  const auto has = walls.exchange.passedOn({walls.firstBounce(0, kWall, Eigen::Array3f::Ones())});
+  return has[0][0].above[1] + has[0][0].below[1];
 }
 
 TEST(Exchange, FollowsLightBetweenTwoWallsWhateverElseThereIs) {
-  const float alone = passedOnBetween(twoWalls(0));
+  const float alone = passedOnBetween(0);
   EXPECT_GT(alone, 2.0f);  // ρ² / (1 − ρ²), ρ up to 0.9
   // A land that they are 1 % of: by the mean over all samples a tenth and more were missing.
-  EXPECT_NEAR(passedOnBetween(twoWalls(50000)), alone, 1e-4f * alone);
+  EXPECT_NEAR(passedOnBetween(50000), alone, 1e-4f * alone);
+}
+
+TEST(Exchange, FollowsSourcesTogetherAsEachAlone) {
+  Walls walls(3000);
+  walls.exchange.tints.resize(walls.samples.receivers.size());
+  for (std::uint32_t i = 0; i < 2 * kWall; ++i)  // some see the other wall through green glass
+    walls.exchange.tints[i].assign(walls.exchange.seen[i].hits.size(),
+                                   i % 3 == 0 ? PackedTint({0.3f, 0.8f, 0.6f}) : PackedTint());
+  std::vector<Exchange::FirstBounce> sources;
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    const auto strength = static_cast<float>(k);  // the first is dark
+    sources.push_back(walls.firstBounce(10 * k, 10 * k + 200, strength * Eigen::Array3f(1.0f, 0.1f, 3.0f)));
+  }
+  sources[2].most = 1;
+  sources[3].most = 4;
+  const std::vector<std::vector<Arrived>> together = walls.exchange.passedOn(sources);
+  ASSERT_EQ(together.size(), sources.size());
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const std::vector<Arrived> alone = walls.exchange.passedOn({sources[k]}).front();
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      EXPECT_TRUE((alone[i].above == together[k][i].above).all()) << k << " " << i;
+      EXPECT_TRUE((alone[i].below == together[k][i].below).all()) << k << " " << i;
+    }
+  }
+  const std::uint32_t lit = 50, across = lit + kWall;
+  EXPECT_TRUE((together[0][across].all() == 0.0f).all());
+  EXPECT_TRUE((together[1][lit].all() > 0.0f).all());
+  EXPECT_TRUE((together[2][lit].all() == 0.0f).all());
+  EXPECT_TRUE((together[2][across].all() > 0.0f).all());
+  EXPECT_TRUE((together[5][across].all() > together[3][across].all()).all());
 }
 
 /// The same walls as rooms whose light is told by coefficients: the second is lit from everywhere.

@@ -149,8 +149,9 @@ Arrived Exchange::received(const std::vector<Eigen::Array3f>& sent, std::size_t 
   return sum;
 }
 
-Arrived Exchange::receivedOf(const Sent& sent, std::size_t sample) const {
-  Arrived sum;
+template <int kSources>
+ArrivedOf<kSources> Exchange::receivedOf(const SentOf<kSources>& sent, std::size_t sample) const {
+  ArrivedOf<kSources> sum;
   const auto lit = [&](std::uint32_t other) { return sent.any[other] != 0; };
   visitSeen(sample, lit, [&](const SampleSeen& other, bool up) {
     (up ? sum.above : sum.below) += other.of(sent.light[other.sample]);
@@ -237,8 +238,8 @@ const std::vector<std::vector<std::uint32_t>>& Exchange::senders() const {
 
 /// Calls visit(sample) for all of those blocks that get any of the light. Parallel. Returns whether there is
 /// any.
-template <typename Visit>
-bool Exchange::inLitBlocks(const Sent& sent, const Visit& visit) const {
+template <int kSources, typename Visit>
+bool Exchange::inLitBlocks(const SentOf<kSources>& sent, const Visit& visit) const {
   const std::vector<std::vector<std::uint32_t>>& senders = this->senders();
   std::vector<std::uint8_t> lit(senders.size(), 0);
   for (std::size_t i = 0; i < sentCount(); ++i) lit[senderOf(i) / kSamplesOfTask] |= sent.any[i];
@@ -253,32 +254,65 @@ bool Exchange::inLitBlocks(const Sent& sent, const Visit& visit) const {
 }
 
 /// Of what is sent, send(number) by what samples have, all know what they were `told`. The rest goes on.
-template <typename Send>
-void Exchange::passOnChanges(const Send& send, float dark, int most, OnItsWay* light) const {
-  Sent changes(sentCount());
-  for (int bounce = 0; bounce < most; ++bounce) {
+template <int kSources, typename Send>
+void Exchange::passOnChanges(const Send& send, float dark, OnItsWay<kSources>* light) const {
+  SentOf<kSources> changes(sentCount());
+  for (int bounce = 0;; ++bounce) {
     tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) {
-      const Eigen::Array3f now = send(i), change = now - light->told[i];
-      const bool matters = change.abs().maxCoeff() > std::max(kNextToNothing * now.maxCoeff(), dark);
-      changes.set(i, matters ? change : Eigen::Array3f::Zero());
-      if (matters) light->told[i] = now;
+      const Colors<kSources> now = send(i);
+      Colors<kSources> change = now - light->told[i];
+      for (int k = 0; k < kSources; ++k) {
+        const bool matters =
+            bounce < light->most[static_cast<std::size_t>(k)] &&
+            change.col(k).abs().maxCoeff() > std::max(kNextToNothing * now.col(k).maxCoeff(), dark);
+        if (matters) {
+          light->told[i].col(k) = now.col(k);
+        } else {
+          change.col(k).setZero();
+        }
+      }
+      changes.set(i, change);
     });
     if (!inLitBlocks(changes, [&](std::size_t i) { (*light->has)[i] += receivedOf(changes, i); })) return;
   }
 }
 
-std::vector<Arrived> Exchange::passedOn(std::vector<Arrived> first, int most) const {
-  std::vector<Arrived> has = std::move(first);
+std::vector<std::vector<Arrived>> Exchange::passedOn(std::vector<FirstBounce> first) const {
+  for (std::size_t begin = 0; begin < first.size(); begin += kTogether) {
+    const int count = static_cast<int>(std::min<std::size_t>(kTogether, first.size() - begin));
+    if (count == 1) {
+      passOnTogether<1>(&first[begin], count);
+    } else {
+      passOnTogether<kTogether>(&first[begin], count);
+    }
+  }
+  std::vector<std::vector<Arrived>> has;
+  for (FirstBounce& source : first) has.push_back(std::move(source.has));
+  return has;
+}
+
+/// Of `count` sources, which may be fewer than there is room for; sets what samples have of them in the end.
+template <int kSources>
+void Exchange::passOnTogether(FirstBounce* first, int count) const {
+  std::vector<ArrivedOf<kSources>> has(seen.size());
+  OnItsWay<kSources> light{&has, std::vector<Colors<kSources>>(sentCount(), Colors<kSources>::Zero()), {}};
+  for (int k = 0; k < count; ++k) {
+    light.most[static_cast<std::size_t>(k)] = first[k].most - 1;
+    for (std::size_t i = 0; i < has.size(); ++i) {
+      has[i].above.col(k) = first[k].has[i].above;
+      has[i].below.col(k) = first[k].has[i].below;
+    }
+  }
   const std::vector<Sending>& sends_of = sendings();
-  const auto send = [&](std::size_t i) -> Eigen::Array3f {
+  const auto send = [&](std::size_t i) -> Colors<kSources> {
     const Sending& sends = sends_of[i];
-    Eigen::Array3f sent = sends.bounced * has[senderOf(i)].all();
-    if (sends.other != LightMesh::kNone) sent += sends.through * has[sends.other].all();
+    Colors<kSources> sent = has[senderOf(i)].all().colwise() * sends.bounced;
+    if (sends.other != LightMesh::kNone) sent += has[sends.other].all().colwise() * sends.through;
     return sent;
   };
-  OnItsWay light{&has, std::vector<Eigen::Array3f>(sentCount(), Eigen::Array3f::Zero())};
-  passOnChanges(send, kUntold_lx, most - 1, &light);
-  return has;
+  passOnChanges(send, kUntold_lx, &light);
+  for (int k = 0; k < count; ++k)
+    for (std::size_t i = 0; i < has.size(); ++i) first[k].has[i] = {has[i].above.col(k), has[i].below.col(k)};
 }
 
 void Exchange::addLaterBounces(TransportData* data) const {
@@ -286,11 +320,11 @@ void Exchange::addLaterBounces(TransportData* data) const {
   const std::vector<Arrived> traced = has.passed_on;
   const std::vector<Sending>& sends_of = sendings();
   const auto send = [&](std::size_t i) { return sentBy(sends_of[i], has, senderOf(i)); };
-  OnItsWay light{&has.passed_on, std::vector<Eigen::Array3f>(sentCount())};
+  OnItsWay<1> light{&has.passed_on, std::vector<Eigen::Array3f>(sentCount()), {kAllBounces - 1}};
   tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) { light.told[i] = send(i); });
   tbb::parallel_for(std::size_t{0}, seen.size(),
                     [&](std::size_t i) { has.passed_on[i] = received(light.told, i); });
-  passOnChanges(send, 0.0f, kAllBounces - 1, &light);
+  passOnChanges(send, 0.0f, &light);
   tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
     brighten(traced[i].above, has.passed_on[i].above, i, &data->above);
     brighten(traced[i].below, has.passed_on[i].below, i, &data->below);

@@ -103,20 +103,10 @@ class Exchange {
   /// What a sample gets of all that is sent, and of the ground's mirror.
   Arrived received(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const;
 
-  /// Light that goes from samples to others: luminance × π.
-  struct Sent {
-    explicit Sent(std::size_t count) : light(count), any(count) {}
-    void set(std::size_t number, const Eigen::Array3f& value) {
-      light[number] = value;
-      any[number] = value.isZero(0.0f) ? 0 : 1;
-    }
-    std::vector<Eigen::Array3f> light;
-    std::vector<std::uint8_t> any;  ///< whether it is not 0: most are dark, and this fits a core's cache
-  };
-  /// Such light, of which others look for a part.
+  /// Light that is sent, of which others look for a part.
   struct LookedFor {
     explicit LookedFor(std::size_t count) : sent(count), part(count), lamp_m(count) {}
-    Sent sent;
+    SentOf<1> sent;
     std::vector<Eigen::Array3f> part;  ///< of `sent`, as lookedFor() tells
     std::vector<float> lamp_m;         ///< for lookedForFrom()
   };
@@ -124,9 +114,15 @@ class Exchange {
   LookedFor sentOf(const StraightLight& lamps, const std::vector<Arrived>& has) const;
   /// What each sample has of that: what rays meet, and what it `found` where it looked. Parallel.
   std::vector<Arrived> receivedOf(const LookedFor& sent, std::vector<Arrived> found) const;
-  /// What each sample has by surfaces that pass on light, of which it has `first` by one bounce: by `most`
-  /// bounces, or until they add next to nothing. Parallel.
-  std::vector<Arrived> passedOn(std::vector<Arrived> first, int most) const;
+  /// What samples have of a source by one bounce.
+  struct FirstBounce {
+    std::vector<Arrived> has;
+    int most;  ///< bounces that count
+  };
+  /// What each sample has of each source by surfaces that pass on its light: by its bounces, or until they
+  /// add next to nothing. Of up to kTogether sources what samples see is looked up once. Parallel.
+  std::vector<std::vector<Arrived>> passedOn(std::vector<FirstBounce> first) const;
+  static constexpr int kTogether = 4;
 
   /// Bounces of white walls, that pass on 0.98, until next to nothing is left.
   static constexpr int kAllBounces = 200;
@@ -138,20 +134,25 @@ class Exchange {
  private:
   static_assert(SkyPatches::kAbove <= 256 && SkyPatches::kDown <= 256, "a direction fits above a sample");
 
-  Arrived receivedOf(const Sent& sent, std::size_t sample) const;
+  template <int kSources>
+  ArrivedOf<kSources> receivedOf(const SentOf<kSources>& sent, std::size_t sample) const;
   /// Of each block of kSamplesOfTask samples, neighbours mostly: blocks whose light it gets.
   const std::vector<std::vector<std::uint32_t>>& senders() const;
-  template <typename Visit>
-  bool inLitBlocks(const Sent& sent, const Visit& visit) const;
+  template <int kSources, typename Visit>
+  bool inLitBlocks(const SentOf<kSources>& sent, const Visit& visit) const;
   /// Of each sample, Receiver::middle().
   const std::vector<Eigen::Vector3f>& places() const;
   /// What samples have, and what they sent of it that others have by now.
+  template <int kSources>
   struct OnItsWay {
-    std::vector<Arrived>* has;
-    std::vector<Eigen::Array3f> told;  ///< by the number of what is sent
+    std::vector<ArrivedOf<kSources>>* has;
+    std::vector<Colors<kSources>> told;  ///< by the number of what is sent
+    std::array<int, kSources> most;      ///< bounces of each source that are to come
   };
-  template <typename Send>
-  void passOnChanges(const Send& send, float dark, int most, OnItsWay* light) const;
+  template <int kSources, typename Send>
+  void passOnChanges(const Send& send, float dark, OnItsWay<kSources>* light) const;
+  template <int kSources>
+  void passOnTogether(FirstBounce* first, int count) const;
   std::size_t endOf(std::size_t block) const { return std::min(seen.size(), (block + 1) * kSamplesOfTask); }
 
   const SceneSamples& samples_;

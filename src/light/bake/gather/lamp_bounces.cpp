@@ -67,23 +67,43 @@ std::vector<Arrived> LampBounces::lookFor(const std::vector<AreaLights::Piece>& 
   return found;
 }
 
-/// What samples have of `lamps` by way of surfaces, of which `lit` are looked for. White walls of a room pass
-/// on as much of each other's light as they have straight from lamps: who looks into it through a window or a
-/// gap looks for that, too. How much it is rays alone tell well enough, since many surfaces add to it.
-std::vector<Arrived> LampBounces::passedOn(const StraightLight& lamps, std::vector<AreaLights::Piece> lit,
-                                           const Progress& progress) const {
-  const std::vector<Arrived> nothing(samples_.receivers.size());
-  if (bounces_ < 1) return nothing;
-  if (bounces_ == 1 || lit.empty()) {
-    const auto first = exchange_.receivedOf(exchange_.sentOf(lamps, nothing), lookFor(lit, progress));
-    return exchange_.passedOn(first, bounces_);
+/// What samples have of each source by way of surfaces, of which those that are lit are looked for. White
+/// walls of a room pass on as much of each other's light as they have straight from lamps: who looks into it
+/// through a window or a gap looks for that, too. How much it is rays alone tell well enough, since many
+/// surfaces add to it.
+std::vector<std::vector<Arrived>> LampBounces::passedOn(std::vector<Source> sources,
+                                                        const Progress& progress) const {
+  if (bounces_ < 1) return {sources.size(), std::vector<Arrived>(samples_.receivers.size())};
+  constexpr double kPassedOn = 0.3;
+  const auto partOfEach = [&](std::size_t i, double from, double to) {
+    const double each = (to - from) / static_cast<double>(sources.size()),
+                 begin = from + each * static_cast<double>(i);
+    return partOf(progress, begin, begin + each);
+  };
+  std::vector<Exchange::FirstBounce> first;
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    first.push_back(firstBounce(sources[i], partOfEach(i, 0.0, kPassedOn)));
+  std::vector<std::vector<Arrived>> has = exchange_.passedOn(std::move(first));
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    Source& source = sources[i];
+    if (!looksAgain(source)) continue;
+    addBounced(has[i], &source.lit);
+    has[i] = exchange_.receivedOf(exchange_.sentOf(source.lamps, has[i]),
+                                  lookFor(source.lit, partOfEach(i, kPassedOn, 1.0)));
   }
-  StraightLight met = lamps;
+  return has;
+}
+
+/// Where samples look again, by rays alone.
+Exchange::FirstBounce LampBounces::firstBounce(const Source& source, const Progress& progress) const {
+  const std::vector<Arrived> nothing(samples_.receivers.size());
+  if (!looksAgain(source)) {
+    const Exchange::LookedFor sent = exchange_.sentOf(source.lamps, nothing);
+    return {exchange_.receivedOf(sent, lookFor(source.lit, progress)), bounces_};
+  }
+  StraightLight met = source.lamps;
   std::fill(met.looked_for.begin(), met.looked_for.end(), Eigen::Array3f::Zero());
-  const auto first = exchange_.receivedOf(exchange_.sentOf(met, nothing), nothing);
-  const std::vector<Arrived> has = exchange_.passedOn(first, bounces_ - 1);
-  addBounced(has, &lit);
-  return exchange_.receivedOf(exchange_.sentOf(lamps, has), lookFor(lit, partOf(progress, 0.3, 1.0)));
+  return {exchange_.receivedOf(exchange_.sentOf(met, nothing), nothing), bounces_ - 1};
 }
 
 /// Adds what surfaces pass on of what they have besides.
@@ -104,12 +124,18 @@ BakedLamps LampBounces::bake(const Progress& progress) const {
   BakedLamps baked;
   baked.first.push_back(0);
   const std::vector<LampSet> sets = lampSets(lamps);
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    const std::vector<scene::Lamp> members = lampsOf(sets[i], lamps);
-    const std::vector<LampBeam> beams(members.begin(), members.end());
-    const double each = 1.0 / static_cast<double>(sets.size()), from = each * static_cast<double>(i);
-    const StraightLight straight = lampsOnSamples(scene_, samples_, beams);
-    store(passedOn(straight, litPieces(scene_, beams), partOf(progress, from, from + each)), &baked);
+  const auto count = static_cast<double>(sets.size());
+  for (std::size_t begin = 0, end; begin < sets.size(); begin = end) {
+    end = std::min(sets.size(), begin + Exchange::kTogether);
+    std::vector<Source> sources;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::vector<scene::Lamp> members = lampsOf(sets[i], lamps);
+      const std::vector<LampBeam> beams(members.begin(), members.end());
+      sources.push_back({lampsOnSamples(scene_, samples_, beams), litPieces(scene_, beams)});
+    }
+    const Progress part =
+        partOf(progress, static_cast<double>(begin) / count, static_cast<double>(end) / count);
+    for (const std::vector<Arrived>& arrived : passedOn(std::move(sources), part)) store(arrived, &baked);
   }
   return baked;
 }
@@ -152,14 +178,16 @@ void LampBounces::bakeShining(const ShiningLights& shining, const Progress& prog
                               TransportData* data) const {
   std::vector<Arrived> all(samples_.receivers.size());
   if (shining.baked.any()) {
-    const StraightLight lit =
+    StraightLight lit =
         straight(shining.baked, {maySendShine, kFarthestByShining_m}, partOf(progress, 0.0, 0.25), &all);
-    add(passedOn(lit, litPieces(scene_, shining.baked), partOf(progress, 0.25, 0.5)), &all);
+    const Progress part = partOf(progress, 0.25, 0.5);
+    add(passedOn({{std::move(lit), litPieces(scene_, shining.baked)}}, part).front(), &all);
   }
   if (shining.compact.any()) {
-    const StraightLight lit =
+    StraightLight lit =
         straight(shining.compact, {maySendLampLight, kFarthestLit_m}, partOf(progress, 0.5, 0.75), nullptr);
-    add(passedOn(lit, litPieces(scene_, shining.beams), partOf(progress, 0.75, 1.0)), &all);
+    const Progress part = partOf(progress, 0.75, 1.0);
+    add(passedOn({{std::move(lit), litPieces(scene_, shining.beams)}}, part).front(), &all);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     storeGlow(all[i].above, i, &data->above);

@@ -31,8 +31,14 @@ class LampBounces {
   void bakeShining(const ShiningLights& shining, const Progress& progress, TransportData* data) const;
 
  private:
-  std::vector<Arrived> passedOn(const StraightLight& lamps, std::vector<AreaLights::Piece> lit,
-                                const Progress& progress) const;
+  /// What samples have straight from lamps, or from what shines, and the surfaces that these light brightly.
+  struct Source {
+    StraightLight lamps;
+    std::vector<AreaLights::Piece> lit;
+  };
+  std::vector<std::vector<Arrived>> passedOn(std::vector<Source> sources, const Progress& progress) const;
+  bool looksAgain(const Source& source) const { return bounces_ > 1 && !source.lit.empty(); }
+  Exchange::FirstBounce firstBounce(const Source& source, const Progress& progress) const;
   std::vector<Arrived> lookFor(const std::vector<AreaLights::Piece>& pieces, const Progress& progress) const;
   void addBounced(const std::vector<Arrived>& has, std::vector<AreaLights::Piece>* lit) const;
   /// Of surfaces that light, which of a triangle is looked for, and up to where.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "light/bake/gather/sent_light.h"
 #include "light/bake/samples/transport_data.h"
 
 namespace sunlit::light {
@@ -17,6 +18,14 @@ struct SampleSeen {
 
   /// Illuminance where it sends so much: luminance × π.
   Eigen::Array3f of(const Eigen::Array3f& sent) const { return weight * tint.times(sent); }
+  /// Of each of several sources.
+  template <int kSources>
+  Colors<kSources> of(const Colors<kSources>& sent) const {
+    if (tint.white()) return weight * sent;
+    Colors<kSources> light;
+    for (int k = 0; k < kSources; ++k) light.col(k) = of(sent.col(k));
+    return light;
+  }
 };
 
 /// Calls visit(SampleSeen, whether it is seen above the horizon) for all that a room sees.

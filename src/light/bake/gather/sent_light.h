@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,15 +18,33 @@ struct Sending {
   std::uint32_t other;  ///< the sample on the other side, or LightMesh::kNone
 };
 
-/// Illuminance by surfaces, lx.
-struct Arrived {
-  Eigen::Array3f above = Eigen::Array3f::Zero(), below = Eigen::Array3f::Zero();
-  Eigen::Array3f all() const { return above + below; }
-  Arrived& operator+=(const Arrived& more) {
+/// Light of several sources, each by itself: a colour in each column.
+template <int kSources>
+using Colors = Eigen::Array<float, 3, kSources>;
+
+/// Illuminance by surfaces, lx, of several sources.
+template <int kSources>
+struct ArrivedOf {
+  Colors<kSources> above = Colors<kSources>::Zero(), below = Colors<kSources>::Zero();
+  Colors<kSources> all() const { return above + below; }
+  ArrivedOf& operator+=(const ArrivedOf& more) {
     above += more.above;
     below += more.below;
     return *this;
   }
+};
+using Arrived = ArrivedOf<1>;
+
+/// Light of several sources that goes from samples to others: luminance × π.
+template <int kSources>
+struct SentOf {
+  explicit SentOf(std::size_t count) : light(count), any(count) {}
+  void set(std::size_t number, const Colors<kSources>& value) {
+    light[number] = value;
+    any[number] = value.isZero(0.0f) ? 0 : 1;
+  }
+  std::vector<Colors<kSources>> light;
+  std::vector<std::uint8_t> any;  ///< whether it is not 0: most are dark, and this fits a core's cache
 };
 
 /// What samples have straight from lamps, or from what shines by itself.
