@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <numeric>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "sunlit/quantity/comma_list.h"
 
@@ -185,6 +187,13 @@ std::string plainText(XmlRpcValue value) {
 std::string notAsText(const XmlRpcValue& value) {
   return value.getType() == XmlRpcValue::TypeString ? ", not a text (as which rosrun passes on _name:=value)"
                                                     : "";
+}
+
+std::string wholeName(const std::string& file) {
+  if (file.empty()) return file;
+  std::error_code no_folder;  // of this process: it may be removed
+  const std::string whole = std::filesystem::absolute(file, no_folder).lexically_normal().string();
+  return no_folder ? file : whole;
 }
 
 ParameterReader::ParameterReader(const ros::NodeHandle& node)

@@ -20,6 +20,10 @@ std::string plainText(XmlRpc::XmlRpcValue value);
 /// What is said behind what a list or a map must be: empty unless `value` is a text.
 std::string notAsText(const XmlRpc::XmlRpcValue& value);
 
+/// A file or folder by its whole name; "" stays so. roslaunch starts nodes in ROS_HOME (~/.ros), so that a
+/// relative one, as it was typed, does not say where it lies.
+std::string wholeName(const std::string& file);
+
 /// The parameters of one node, fetched once. Every getter takes the key below the private namespace
 /// (`site/latitude`) and the default, and throws std::invalid_argument with full name, value and what is
 /// allowed. A number never is NaN or infinite. After the last getter call rejectUnknown().

@@ -6,8 +6,8 @@ int main(int argc, char** argv) {
   using namespace sunlit::ros_interface;
   return runNode(argc, argv, "evaluator", [] {
     const ros::NodeHandle private_node("~");
-    EvaluatorNode evaluator(ros::NodeHandle(), private_node,
-                            readEvaluatorOptions(ParameterReader(private_node)));
-    return evaluator.run();
+    EvaluatorOptions options = readEvaluatorOptions(ParameterReader(private_node));
+    options.evaluation.output_dir = wholeName(options.evaluation.output_dir);
+    return EvaluatorNode(ros::NodeHandle(), private_node, options).run();
   });
 }

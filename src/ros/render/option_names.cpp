@@ -24,4 +24,10 @@ void requireNames(const ParameterReader& parameters, const RenderNodeOptions& op
     requireName(parameters.fullName("sun_namespace"), options.sun_namespace, "namespace");
 }
 
+void nameFilesWholly(RenderNodeOptions* options) {
+  for (std::string* file : {&options->path.file, &options->camera.calibration_file,
+                            &options->camera.right_calibration_file, &options->output_dir})
+    *file = wholeName(*file);
+}
+
 }  // namespace sunlit::ros_interface

@@ -1,4 +1,4 @@
-/// Names of nodes, topics and namespaces among the renderer's parameters.
+/// Names of nodes, topics, namespaces and files among the renderer's parameters.
 #pragma once
 
 #include <string>
@@ -14,5 +14,9 @@ void requireName(const std::string& parameter, const std::string& name, const st
 
 /// The same of all topics and namespaces.
 void requireNames(const ParameterReader& parameters, const RenderNodeOptions& options);
+
+/// Whatever is read or written by the name that was typed gets its whole one. World and robot are looked for
+/// in several folders, which are told where they are missing.
+void nameFilesWholly(RenderNodeOptions* options);
 
 }  // namespace sunlit::ros_interface

@@ -371,6 +371,7 @@ RenderConditions readRenderConditions(const ParameterReader& parameters, const s
 RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   RenderNodeOptions options;
   parameters.read(fieldsOf(options));
+  nameFilesWholly(&options);
   studio::requireWorld(options.world);
   readCalibration(parameters, &options.camera);
   readRight(parameters, &options);

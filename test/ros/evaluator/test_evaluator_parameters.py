@@ -136,6 +136,15 @@ class TestParameters(unittest.TestCase):
         self.assertIn('interrupted; writing results', output)
         self.assertEqual(len(rows(self.settings['output_dir'], 'summary.csv')), 2)
 
+    def test_a_relative_folder_is_told_by_its_whole_name(self):
+        evaluator = Evaluator(dict(self.settings, output_dir=os.path.relpath(self.settings['output_dir'])))
+        finish = '/%s/finish' % evaluator.name
+        rospy.wait_for_service(finish, LONGEST_WAIT_S)
+        self.assertIn('results are in ' + self.settings['output_dir'], rospy.ServiceProxy(finish, Trigger)().message)
+        evaluator.process.send_signal(signal.SIGINT)
+        _, output = evaluator.wait()
+        self.assertIn('0 poses in ' + self.settings['output_dir'], output)
+
     def test_a_folder_is_written_by_one_at_a_time(self):
         first = Evaluator(self.settings)
         rospy.wait_for_service('/%s/finish' % first.name, LONGEST_WAIT_S)

@@ -60,6 +60,11 @@ class RenderRefuses(RefusalTest):
         self.assert_refused(parameters(path={"count": 1000}), "path/count", "1000", "20 poses")
         self.assert_refused(parameters(path={"topic": "route"}), "path/file", "path/topic")
 
+    def test_a_file_that_is_missing_is_named_by_where_it_was_looked_for(self):
+        here = os.getcwd()
+        self.assert_refused(parameters(path={"file": "none.csv"}), here + "/none.csv: cannot open this waypoint file")
+        self.assert_refused(parameters(camera={"calibration": "none.yaml"}), here + "/none.yaml: cannot be opened")
+
     def test_what_only_a_path_can_heed_where_a_frame_is_followed(self):
         for key, value in (("wait_for", ["/reader/progress"]), ("count_skipped", True), ("max_ahead", 3), ("resume_at", 5),
                            ("exit_when_done", True), ("start_stamp", 1000.0), ("look_ahead", False), ("path/count", 3)):

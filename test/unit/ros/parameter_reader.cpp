@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -49,6 +50,14 @@ TEST(ParameterReader, TextsBeginInTheHomeFolderWhereTheySaySo) {
   EXPECT_EQ(reader.text("folder", ""), home + "/run");
   EXPECT_EQ(reader.texts("folders", {}), (std::vector<std::string>{home + "/models", "/~/models"}));
   EXPECT_EQ(reader.text("backup", ""), "run~");
+}
+
+TEST(ParameterReader, WholeNamesSayWhereRelativeOnesLie) {
+  const std::string here = std::filesystem::current_path().string();
+  EXPECT_EQ(wholeName("results"), here + "/results");
+  EXPECT_EQ(wholeName("./runs/../results"), here + "/results");
+  EXPECT_EQ(wholeName("/tmp/results"), "/tmp/results");
+  EXPECT_EQ(wholeName(""), "");
 }
 
 TEST(ParameterReader, NamesKeyValueAndRangeOfABadValue) {
