@@ -192,7 +192,7 @@ std::string notAsText(const XmlRpcValue& value) {
 std::string wholeName(const std::string& file) {
   if (file.empty()) return file;
   std::error_code no_folder;  // of this process: it may be removed
-  const std::string whole = std::filesystem::absolute(file, no_folder).lexically_normal().string();
+  const std::string whole = std::filesystem::absolute(file, no_folder).string();
   return no_folder ? file : whole;
 }
 
