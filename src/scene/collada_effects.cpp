@@ -41,6 +41,7 @@ std::map<std::string, Effect> effectsById(const std::string& text) {
     }
     now.above = name;
   });
+  effects.erase("");  // of tags that stand in none
   return effects;
 }
 
@@ -76,10 +77,14 @@ ColladaEffects effectsOf(const std::string& text) {
   std::string material;
   auto found = effects.end();
   forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
-    if (name == "material") material = valueInTag(tag, valueInTag(tag, "name").empty() ? "id" : "name");
+    if (name == "material") {
+      material = valueInTag(tag, valueInTag(tag, "name").empty() ? "id" : "name");
+      of_materials.without_effect.insert(material);
+    }
     if (name == "instance_effect") {
       found = effects.find(withoutHash(valueInTag(tag, "url")));
       if (found == effects.end()) return;
+      of_materials.without_effect.erase(material);
       if (found->second.picture) of_materials.transparency.emplace(material, *found->second.picture);
       if (!found->second.has_diffuse) of_materials.without_diffuse.insert(material);
     }
@@ -89,6 +94,15 @@ ColladaEffects effectsOf(const std::string& text) {
       of_materials.set_apart.insert(material);
   });
   return of_materials;
+}
+
+void warnOf(const ColladaEffects& effects, const std::string& file, SceneBuilder& builder) {
+  for (const std::string& material : effects.without_effect)
+    builder.warn("materials have no effect in their file: what has them is as without a material",
+                 material + " of " + file);
+  for (const std::string& material : effects.set_apart)
+    builder.warn("materials set parameters of their effects by <setparam>, which is not read",
+                 material + " of " + file);
 }
 
 std::string withParameters(const std::string& text) {

@@ -15,10 +15,13 @@ struct ColladaEffects {
   /// opacity (A_ONE), as Assimp takes it for.
   std::map<std::string, OpacityPicture> transparency;
   std::set<std::string> without_diffuse;  ///< for whose colour Assimp has a grey of its own
+  std::set<std::string> without_effect;   ///< name one that is not there, or none
   std::set<std::string> set_apart;        ///< give parameters of their effects other values by <setparam>
 };
 /// `text` as withParameters() gives it.
 ColladaEffects effectsOf(const std::string& text);
+/// Of materials that do not look as their file says.
+void warnOf(const ColladaEffects& effects, const std::string& file, SceneBuilder& builder);
 
 /// `text` in which the values of parameters stand in the place of each <param> that refers to them: Assimp
 /// 5.2 does not follow it. Lines stay where they are.

@@ -108,14 +108,33 @@ CountedLines linesOf(const std::string& name, const std::string& tag, std::size_
   return lines;
 }
 
+/// Ids of materials whose effect is not there.
+std::set<std::string> materialsWithoutEffect(const std::string& text) {
+  std::set<std::string> effects, without;
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
+    if (name == "effect") effects.insert(valueInTag(tag, "id"));
+  });
+  effects.erase("");
+  std::string material;
+  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
+    if (name == "material") without.insert(material = valueInTag(tag, "id"));
+    if (name == "instance_effect" && effects.count(withoutHash(valueInTag(tag, "url"))) == 1)
+      without.erase(material);
+  });
+  return without;
+}
+
 /// What primitives may name as their material.
 std::set<std::string> knownMaterials(const std::string& text) {
+  const std::set<std::string> without_effect = materialsWithoutEffect(text);
   std::set<std::string> known;
+  const auto add = [&](const std::string& name, const std::string& material) {
+    if (!name.empty() && without_effect.count(material) == 0) known.insert(name);
+  };
   forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
-    if (name == "instance_material") known.insert(valueInTag(tag, "symbol"));
-    if (name == "material") known.insert(valueInTag(tag, "id"));
+    if (name == "instance_material") add(valueInTag(tag, "symbol"), withoutHash(valueInTag(tag, "target")));
+    if (name == "material") add(valueInTag(tag, "id"), valueInTag(tag, "id"));
   });
-  known.erase("");
   return known;
 }
 
@@ -125,7 +144,7 @@ std::string withBareMaterials(const std::string& text) {
   static const std::set<std::string> kPrimitives = {"triangles", "polylist",  "polygons",
                                                     "trifans",   "tristrips", "lines"};
   const std::size_t effects = text.find("</library_effects>"), materials = text.find("</library_materials>");
-  if (effects == std::string::npos || materials == std::string::npos) return text;
+  if (materials == std::string::npos) return text;
   const std::set<std::string> known = knownMaterials(text);
   const std::string quoted = '"' + std::string(kBareMaterial) + '"';
   TextChanges changes;
@@ -140,9 +159,14 @@ std::string withBareMaterials(const std::string& text) {
   });
   if (changes.empty()) return text;
   const std::string effect = std::string(kBareMaterial) + ", effect";
-  changes[effects] = {0, "<effect id=\"" + effect +
-                             "\"><profile_COMMON><technique sid=\"common\"><lambert/></technique>"
-                             "</profile_COMMON></effect>"};
+  const std::string lambert = "<effect id=\"" + effect +
+                              "\"><profile_COMMON><technique sid=\"common\"><lambert/></technique>"
+                              "</profile_COMMON></effect>";
+  if (effects != std::string::npos) {
+    changes[effects] = {0, lambert};
+  } else {
+    changes[text.find("<library_materials")] = {0, "<library_effects>" + lambert + "</library_effects>"};
+  }
   changes[materials] = {0, "<material id=" + quoted + " name=" + quoted + "><instance_effect url=\"#" +
                                effect + "\"/></material>"};
   return changed(text, changes);

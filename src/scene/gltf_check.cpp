@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t kTriangles = 4;  ///< the mode of a primitive (glTF 2.0, section 5.24)
+constexpr std::uint64_t kTriangles = 4, kLastMode = 6;  ///< of a primitive (glTF 2.0, section 5.24)
 
 std::uint64_t bytesOfComponent(std::uint64_t type) {
   constexpr std::uint64_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123;
@@ -134,6 +134,7 @@ class Check {
   void checkPrimitive(const json& primitive, const std::string& place) {
     const json& attributes = child(primitive, "attributes");
     const std::uint64_t mode = whole(primitive, "mode", kTriangles, place);
+    if (mode > kLastMode) fail(place, "has mode " + std::to_string(mode) + ", but must have 0 to 6");
     const std::uint64_t corners = primitive.contains("indices") ? countOf(primitive, "indices", place)
                                                                 : countOf(attributes, "POSITION", place);
     // Assimp makes a face of each triangle, line and point, and gives each primitive vertices of its own,

@@ -229,9 +229,7 @@ std::vector<std::string> namesOfMaterials(const aiScene& scene) {
 
 /// By their index in `scene`; none for those that no mesh uses, which Assimp adds of its own too.
 std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const MeshFileContext& context) {
-  for (const std::string& material : context.effects.set_apart)
-    context.builder.warn("materials set parameters of their effects by <setparam>, which is not read",
-                         material + " of " + context.file);
+  warnOf(context.effects, context.file, context.builder);
   std::vector<std::optional<MeshLook>> looks(scene.mNumMaterials);
   std::vector<bool> used(scene.mNumMaterials, false);
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {

@@ -70,6 +70,27 @@ TEST_F(ColladaLooks, WithoutAMaterialHaveNoneOfTheOthersOfTheirFile) {
   EXPECT_GT(materialOf(loaded(text)).base_color.value[0], 0.5f);
 }
 
+// Assimp looked for it in a list that may be empty.
+TEST_F(ColladaLooks, OfMaterialsWhoseEffectIsMissingAreAsWithoutOneAndNamed) {
+  const std::string whole = colladaTriangle("<diffuse><color>0.8 0 0 1</color></diffuse>",
+                                            colladaInput("u", 0) + colladaInput("w", 1), "");
+  const std::size_t begin = whole.find("<instance_effect"), end = whole.find("/>", begin) + 2;
+  const std::string effects = whole.substr(
+      whole.find("<library_effects"), whole.find("</library_effects>") + 18 - whole.find("<library_effects"));
+  for (const std::string instance : {"<instance_effect url='#gone'/>", "<instance_effect url='#'/>", ""}) {
+    for (const bool none : {false, true}) {
+      std::string text = whole;
+      text.replace(begin, end - begin, instance);
+      if (none) replaceIn(text, effects, "");
+      const Scene scene = loaded(text);
+      EXPECT_TRUE((materialOf(scene).base_color.value == kNeutral.value).all()) << instance << none;
+      ASSERT_EQ(scene.warnings.size(), 1u) << instance << none;
+      EXPECT_NE(scene.warnings[0].find("1 materials have no effect in their file"), std::string::npos)
+          << scene.warnings[0];
+    }
+  }
+}
+
 // Section 7, "Determining Transparency (Opacity)": ZERO is where a picture is opaque.
 TEST_F(ColladaLooks, PicturesOfTransparencyAreNoOpacity) {
   image::Rgba8Image picture(2, 1);

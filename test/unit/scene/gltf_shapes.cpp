@@ -206,6 +206,15 @@ TEST_F(GltfShape, OfBrokenJsonNamesThePlace) {
   EXPECT_NE(error.find("line 2"), std::string::npos) << error;
 }
 
+TEST_F(GltfShape, OfAModeThatThereIsNotIsRefused) {
+  std::string text = gltf({});
+  const std::string attributes = R"("attributes":{)";
+  text.replace(text.find(attributes), attributes.size(), R"("mode":65536,"attributes":{)");
+  write("numbers.bin", kNumbers);
+  EXPECT_EQ(errorOf(write("t.gltf", text)),
+            pathOf("t.gltf") + ": mesh 0 has mode 65536, but must have 0 to 6");
+}
+
 TEST_F(GltfShape, OfASkinWithoutJointsIsReadAsItStands) {
   Parts parts = skinned("");
   parts.more = R"("skins":[{"joints":[]}],)";
