@@ -94,6 +94,12 @@ std::vector<std::vector<Arrived>> LampBounces::passedOn(std::vector<Source> sour
   return has;
 }
 
+std::vector<Arrived> LampBounces::passedOn(Source source, const Progress& progress) const {
+  std::vector<Source> one;
+  one.push_back(std::move(source));
+  return passedOn(std::move(one), progress).front();
+}
+
 /// Where samples look again, by rays alone.
 Exchange::FirstBounce LampBounces::firstBounce(const Source& source, const Progress& progress) const {
   const std::vector<Arrived> nothing(samples_.receivers.size());
@@ -181,13 +187,13 @@ void LampBounces::bakeShining(const ShiningLights& shining, const Progress& prog
     StraightLight lit =
         straight(shining.baked, {maySendShine, kFarthestByShining_m}, partOf(progress, 0.0, 0.25), &all);
     const Progress part = partOf(progress, 0.25, 0.5);
-    add(passedOn({{std::move(lit), litPieces(scene_, shining.baked)}}, part).front(), &all);
+    add(passedOn({std::move(lit), litPieces(scene_, shining.baked)}, part), &all);
   }
   if (shining.compact.any()) {
     StraightLight lit =
         straight(shining.compact, {maySendLampLight, kFarthestLit_m}, partOf(progress, 0.5, 0.75), nullptr);
     const Progress part = partOf(progress, 0.75, 1.0);
-    add(passedOn({{std::move(lit), litPieces(scene_, shining.beams)}}, part).front(), &all);
+    add(passedOn({std::move(lit), litPieces(scene_, shining.beams)}, part), &all);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     storeGlow(all[i].above, i, &data->above);

@@ -37,6 +37,7 @@ class LampBounces {
     std::vector<AreaLights::Piece> lit;
   };
   std::vector<std::vector<Arrived>> passedOn(std::vector<Source> sources, const Progress& progress) const;
+  std::vector<Arrived> passedOn(Source source, const Progress& progress) const;
   bool looksAgain(const Source& source) const { return bounces_ > 1 && !source.lit.empty(); }
   Exchange::FirstBounce firstBounce(const Source& source, const Progress& progress) const;
   std::vector<Arrived> lookFor(const std::vector<AreaLights::Piece>& pieces, const Progress& progress) const;
