@@ -190,10 +190,13 @@ std::string notAsText(const XmlRpcValue& value) {
 }
 
 std::string wholeName(const std::string& file) {
-  if (file.empty()) return file;
+  if (file.empty() || std::filesystem::path(file).is_absolute()) return file;
   std::error_code no_folder;  // of this process: it may be removed
-  const std::string whole = std::filesystem::absolute(file, no_folder).string();
-  return no_folder ? file : whole;
+  const std::filesystem::path whole = std::filesystem::absolute(file, no_folder);
+  if (no_folder) return file;
+  std::error_code not_searched;
+  const std::filesystem::path plain = std::filesystem::weakly_canonical(whole, not_searched);
+  return (not_searched ? whole : plain).string();
 }
 
 ParameterReader::ParameterReader(const ros::NodeHandle& node)

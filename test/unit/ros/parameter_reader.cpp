@@ -55,6 +55,7 @@ TEST(ParameterReader, TextsBeginInTheHomeFolderWhereTheySaySo) {
 TEST(ParameterReader, WholeNamesSayWhereRelativeOnesLie) {
   const std::string here = std::filesystem::current_path().string();
   EXPECT_EQ(wholeName("results"), here + "/results");
+  EXPECT_EQ(wholeName("./runs/../results"), here + "/results");
   EXPECT_EQ(wholeName("/tmp/results"), "/tmp/results");
   EXPECT_EQ(wholeName("/tmp/link/../results"),
             "/tmp/link/../results");  // what a link leads to lies elsewhere
