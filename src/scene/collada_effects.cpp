@@ -74,17 +74,18 @@ Parameters parametersOf(const std::string& text) {
 ColladaEffects effectsOf(const std::string& text) {
   const std::map<std::string, Effect> effects = effectsById(text);
   ColladaEffects of_materials;
-  std::string material;
+  std::string id, material;
   auto found = effects.end();
   forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
     if (name == "material") {
       material = valueInTag(tag, valueInTag(tag, "name").empty() ? "id" : "name");
-      of_materials.without_effect.insert(material);
+      id = valueInTag(tag, "id");
+      of_materials.without_effect[id] = material;
     }
     if (name == "instance_effect") {
       found = effects.find(withoutHash(valueInTag(tag, "url")));
       if (found == effects.end()) return;
-      of_materials.without_effect.erase(material);
+      of_materials.without_effect.erase(id);
       if (found->second.picture) of_materials.transparency.emplace(material, *found->second.picture);
       if (!found->second.has_diffuse) of_materials.without_diffuse.insert(material);
     }
@@ -97,7 +98,7 @@ ColladaEffects effectsOf(const std::string& text) {
 }
 
 void warnOf(const ColladaEffects& effects, const std::string& file, SceneBuilder& builder) {
-  for (const std::string& material : effects.without_effect)
+  for (const auto& [id, material] : effects.without_effect)
     builder.warn("materials have no effect in their file: what has them is as without a material",
                  material + " of " + file);
   for (const std::string& material : effects.set_apart)

@@ -15,8 +15,9 @@ struct ColladaEffects {
   /// opacity (A_ONE), as Assimp takes it for.
   std::map<std::string, OpacityPicture> transparency;
   std::set<std::string> without_diffuse;  ///< for whose colour Assimp has a grey of its own
-  std::set<std::string> without_effect;   ///< name one that is not there, or none
-  std::set<std::string> set_apart;        ///< give parameters of their effects other values by <setparam>
+  /// Names by ids, of those whose effect is not there, or that name none.
+  std::map<std::string, std::string> without_effect;
+  std::set<std::string> set_apart;  ///< give parameters of their effects other values by <setparam>
 };
 /// `text` as withParameters() gives it.
 ColladaEffects effectsOf(const std::string& text);

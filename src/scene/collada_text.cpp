@@ -108,25 +108,9 @@ CountedLines linesOf(const std::string& name, const std::string& tag, std::size_
   return lines;
 }
 
-/// Ids of materials whose effect is not there.
-std::set<std::string> materialsWithoutEffect(const std::string& text) {
-  std::set<std::string> effects, without;
-  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
-    if (name == "effect") effects.insert(valueInTag(tag, "id"));
-  });
-  effects.erase("");
-  std::string material;
-  forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t) {
-    if (name == "material") without.insert(material = valueInTag(tag, "id"));
-    if (name == "instance_effect" && effects.count(withoutHash(valueInTag(tag, "url"))) == 1)
-      without.erase(material);
-  });
-  return without;
-}
-
 /// What primitives may name as their material.
-std::set<std::string> knownMaterials(const std::string& text) {
-  const std::set<std::string> without_effect = materialsWithoutEffect(text);
+std::set<std::string> knownMaterials(const std::string& text,
+                                     const std::map<std::string, std::string>& without_effect) {
   std::set<std::string> known;
   const auto add = [&](const std::string& name, const std::string& material) {
     if (!name.empty() && without_effect.count(material) == 0) known.insert(name);
@@ -140,12 +124,13 @@ std::set<std::string> knownMaterials(const std::string& text) {
 
 }  // namespace
 
-std::string withBareMaterials(const std::string& text) {
+std::string withBareMaterials(const std::string& text,
+                              const std::map<std::string, std::string>& without_effect) {
   static const std::set<std::string> kPrimitives = {"triangles", "polylist",  "polygons",
                                                     "trifans",   "tristrips", "lines"};
   const std::size_t effects = text.find("</library_effects>"), materials = text.find("</library_materials>");
   if (materials == std::string::npos) return text;
-  const std::set<std::string> known = knownMaterials(text);
+  const std::set<std::string> known = knownMaterials(text, without_effect);
   const std::string quoted = '"' + std::string(kBareMaterial) + '"';
   TextChanges changes;
   forEachTag(text, [&](const std::string& name, const std::string& tag, std::size_t at) {

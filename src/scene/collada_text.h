@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 
 namespace sunlit::scene {
@@ -22,10 +23,11 @@ std::string withCountedLines(const std::string& text);
 /// Name of the material of what has none in a file that has some.
 constexpr const char* kBareMaterial = "sunlit: without a material";
 
-/// `text` in which what has no material, or one that is bound nowhere and is in no library, or whose effect
-/// is not there, has that of this name: Assimp gives it the first of the library, or reads where there is
-/// none. Lines stay where they are.
-std::string withBareMaterials(const std::string& text);
+/// `text` in which what has no material, or one that is bound nowhere and is in no library, or whose id is
+/// among ColladaEffects::without_effect, has that of this name: Assimp gives it the first of the library, or
+/// reads where there is none. Lines stay where they are.
+std::string withBareMaterials(const std::string& text,
+                              const std::map<std::string, std::string>& without_effect);
 
 /// `text` without blanks before the numbers of <v> and <vcount>: Assimp takes them for zeros, or for the
 /// sizes of what it then writes beyond. Lines do not stay where they are.

@@ -258,7 +258,8 @@ ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, 
   requireReadableCollada(text, file);
   text = withParameters(withKnownSets(text));
   ColladaEffects effects = effectsOf(text);
-  text = withExponentsOfSpots(withNamesOfLamps(withWeightsAtOnce(withBareMaterials(text))));
+  text = withExponentsOfSpots(
+      withNamesOfLamps(withWeightsAtOnce(withBareMaterials(text, effects.without_effect))));
   if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return effects;
   const ColladaText readable = readableCollada(text);
   const aiScene* const scene =
