@@ -167,14 +167,6 @@ bool PathRun::metersBefore(const Shot& shot) {
   return true;
 }
 
-void PathRun::warnOfOtherParent() {
-  if (warned_) return;
-  const std::string warning = streams_.poseOutput().otherParent(tf_->buffer);
-  if (warning.empty()) return;
-  warned_ = true;
-  ROS_WARN("%s", warning.c_str());
-}
-
 Step PathRun::render() {
   if (!next_) next_ = shotAt(position_, {});
   waits_for_ = Wait();
@@ -195,7 +187,6 @@ Step PathRun::render() {
     const RobotPlaces::Joints found = joints();
     robot_->count(found);
     shot = shotAt(position_, found);
-    warnOfOtherParent();
   }
   map_from_links_ = shot.map_from_links;
   position_ += path_.stride();

@@ -21,6 +21,8 @@ PoseOutput::PoseOutput(ros::NodeHandle node, ros::NodeHandle private_node, const
   // count.
   tf_ = HeardTopic::of<tf2_msgs::TFMessage>(node, topics::kTf, options.queue_size);
   optical_.emplace(options.frames, options.right).publish();
+  watch_.emplace(node, std::map<std::string, std::string>{{options.frames.camera, options.frames.map}},
+                 "With publish_tf: false it is left to others; frames/camera calls it otherwise");
 }
 
 void PoseOutput::publishPath(const PathSource& path, const ros::Time& start, double frame_rate) const {
@@ -53,15 +55,6 @@ void PoseOutput::publishProgress(int poses) const {
   std_msgs::UInt32 progress;
   progress.data = static_cast<std::uint32_t>(poses);
   progress_.publish(progress);
-}
-
-std::string PoseOutput::otherParent(const tf2_ros::Buffer& tf) const {
-  std::string parent;
-  if (!tf_ || !tf._getParent(options_.frames.camera, ros::Time(0), parent) || parent == options_.frames.map)
-    return std::string();
-  return "Others send the frame " + options_.frames.camera + " below " + parent +
-         " on TF, and this node below " + options_.frames.map +
-         ": a frame has one parent. With publish_tf: false it is left to them";
 }
 
 std::string PoseOutput::lonelyTopic(const WantedSubscribers& wanted) const {

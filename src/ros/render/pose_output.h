@@ -2,12 +2,12 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <tf2_ros/buffer.h>
 
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
 
+#include "ros/frame_watch.h"
 #include "ros/render/camera_output.h"
 #include "ros/render/optical_frame.h"
 #include "ros/render/options.h"
@@ -28,9 +28,6 @@ class PoseOutput {
                const ros::Time& stamp) const;
   /// Poses since the first of the run that this node is done with: all before the next one that it publishes.
   void publishProgress(int poses) const;
-  /// A line of what is wrong where others send a place of the camera's frame that this node sends too; empty:
-  /// nothing is, as far as `tf` knows.
-  std::string otherParent(const tf2_ros::Buffer& tf) const;
   /// The first topic with too few subscribers; empty if there is none.
   std::string lonelyTopic(const WantedSubscribers& wanted) const;
 
@@ -42,6 +39,7 @@ class PoseOutput {
   ros::Publisher progress_;
   std::optional<HeardTopic> tf_;
   std::optional<OpticalFrames> optical_;
+  std::optional<FrameWatch> watch_;
 };
 
 }  // namespace sunlit::ros_interface

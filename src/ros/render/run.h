@@ -102,7 +102,6 @@ class PathRun : public Run {
   Step render();
   /// Lets exposures that lag see the next pose that they miss before `shot`; false where they miss none.
   bool metersBefore(const Shot& shot);
-  void warnOfOtherParent();
   /// The poses before `position` as readers count them.
   int counted(int position) const;
 
@@ -123,7 +122,6 @@ class PathRun : public Run {
   render::BodyPlaces map_from_links_;  ///< of the latest shot
   TimeWait time_wait_;
   Wait waits_for_;
-  bool warned_ = false;  ///< of a frame with two parents
 };
 
 struct FollowOptions {

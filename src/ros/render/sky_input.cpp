@@ -127,7 +127,7 @@ Wait SkyInput::missing(const ros::Time& stamp) const {
   const std::string newest = textOfStamp(newestStamp());
   if (!moments_.missed(stamp)) return {wanted + ", which stands at " + newest, key};
   return {wanted + ", which has begun with " + textOfStamp(moments_.whole().begin()->first) +
-              " and gone on to " + newest + " without it",
+              " and gone on to " + newest + " without it: a sun must begin before, or stand still (rate 0)",
           key};
 }
 

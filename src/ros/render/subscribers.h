@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <ros/this_node.h>
 
 #include <map>
 #include <memory>
@@ -16,13 +17,15 @@ struct Audience {
   std::vector<std::string> of;  ///< names with all namespaces; empty: whoever
 };
 
-/// The nodes that listen to one topic. Copies speak of the same ones.
+/// The other nodes that listen to one topic. Copies speak of the same ones.
 class Subscribers {
  public:
   /// For the `Link`s that an advertised topic tells of, which ROS does on the thread that has its callbacks.
   template <typename Link>
   boost::function<void(const Link&)> joining() const {
-    return [links = links_](const Link& link) { ++(*links)[link.getSubscriberName()]; };
+    return [links = links_](const Link& link) {
+      if (link.getSubscriberName() != ros::this_node::getName()) ++(*links)[link.getSubscriberName()];
+    };
   }
   template <typename Link>
   boost::function<void(const Link&)> leaving() const {

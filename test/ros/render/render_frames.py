@@ -7,6 +7,7 @@ import rospy
 import rostest
 import tf2_py
 from rendering import Process, Reader, RefusalTest, RenderNode, Sun, TIMEOUT_S, following, parameters
+from sensor_msgs.msg import CameraInfo
 
 POSES = 3
 
@@ -67,6 +68,27 @@ class RenderFrames(RefusalTest):
                              ("h12/camera/camera_info", "optical"), ("h12/camera/capture", "optical")):
             messages = reader.wait("/%s/%s" % (side, topic), 1)
             self.assertEqual({m.header.frame_id for m in messages}, {side + "/" + frame}, topic)
+
+    def test_senders_of_one_frame_are_told_of_each_other(self):
+        sun = Sun("/noon/sun")
+        info = rospy.Subscriber("/left/camera/camera_info", CameraInfo, lambda _: None)  # waited for before /tf
+        cameras = {}
+        with contextlib.ExitStack() as nodes:
+            for side in ("left", "right"):
+                cameras[side] = nodes.enter_context(RenderNode("render", parameters(
+                    path={"count": POSES}, sun_namespace="/noon", subscribers={"others": 1}), namespace=side))
+                said = cameras[side].line_with("subscribers of")  # from now on it listens
+                if side == "left":  # no node is a reader of its own
+                    self.assertIn("subscribers of /tf", said)
+            readers = [Reader([""], node="/%s/render" % side, prefix="/%s/" % side) for side in cameras]
+            for side, other in (("left", "right"), ("right", "left")):
+                told = cameras[side].line_with("on TF, and so does this node")
+                self.assertIn("/%s/render sends the frame camera_link below map on TF, and so does this node, below map" % other, told)
+                self.assertIn("publish_tf: false", told)
+        for reader in readers:
+            reader.close()
+        info.unregister()
+        sun.publisher.unregister()
 
     def test_a_sky_of_another_map_is_refused(self):
         suns = [Sun("/a/sun"), Sun("/b/sun")]  # of `map`

@@ -220,7 +220,7 @@ class RenderRobot(RefusalTest):
         self.assertEqual(status, 0, said)
         told = [line for line in said if "WARN" in line and "the frame camera_link" in line]
         self.assertEqual(len(told), 1, said)
-        self.assertIn("Others send the frame camera_link below base_link on TF, and this node below map", told[0])
+        self.assertIn("sends the frame camera_link below base_link on TF, and so does this node, below map", told[0])
         self.assertIn("publish_tf: false", told[0])
         told = [line for line in said if "renewed" in line]
         self.assertEqual(len(told), 3, said)
