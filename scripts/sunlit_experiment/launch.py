@@ -169,6 +169,12 @@ class Launch:
             else:
                 return
 
+    def _send(self, number):
+        """To roslaunch, if it still is."""
+        if not self.is_gone():
+            with contextlib.suppress(ProcessLookupError):  # it ended just now
+                os.kill(self.pid, number)
+
     def break_off(self, reason):
         """Ends all nodes, then the master, then roslaunch with a status that is not 0. The reason is the last line but
         for what a shell says. Does not come back where there is a roslaunch to end."""
@@ -176,14 +182,12 @@ class Launch:
         if not self.may_end_children:
             display.say(said, sys.stderr)
             return
-        if not self.is_gone():
-            os.kill(self.pid, signal.SIGSTOP)  # or it would end by itself, with status 0, once its nodes have
+        self._send(signal.SIGSTOP)  # or it would end by itself, with status 0, once its nodes have
         self._end_children(masters=False)
         self._end_children(masters=True)
         display.say(said, sys.stderr)
-        if not self.is_gone():
-            os.kill(self.pid, signal.SIGUSR1)
-            os.kill(self.pid, signal.SIGCONT)
+        self._send(signal.SIGUSR1)
+        self._send(signal.SIGCONT)
         os._exit(1)  # at once: there is no master any more to say goodbye to
 
     def finish(self):
@@ -191,4 +195,4 @@ class Launch:
         if self.is_gone():
             raise Failure("roslaunch has gone")
         if self.is_roslaunch():
-            os.kill(self.pid, signal.SIGINT)
+            self._send(signal.SIGINT)
