@@ -90,7 +90,7 @@ void rays(benchmark::State& state) {
     }
     next += 997 * light::RayPacket::kSize;
     light::probe(scene, patches.rays(), {receivers.data(), light::RayPacket::kSize},
-                 [&](int, std::size_t, float, const light::HitPacket&) { ++cast; });
+                 [&](int, std::size_t, float, const light::HitLayers&) { ++cast; });
   }
   state.counters["rays_per_second_on_one_core"] =
       benchmark::Counter(static_cast<double>(cast), benchmark::Counter::kIsRate);
