@@ -179,7 +179,7 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
   if (count == 0 || shining.empty()) return;
   direct_.resize(count, Eigen::Array3f::Zero());
   has_.resize(data_.sampleCount(), Eigen::Array3f::Zero());
-  sent_.resize(data_.sampleCount(), Eigen::Array3f::Zero());
+  sent_.resize(data_.sampleCount(), Eigen::Array4f::Zero());
   mirrored_.resize(data_.rooms.samples.size(), Eigen::Array3f::Zero());
   glints_.resize(data_.rooms.samples.size(), Eigen::Array3f::Zero());
   arrived_.resize(data_.rooms.samples.size());
@@ -242,8 +242,19 @@ void DiscsInRooms::send() {
         direct_[s] + Eigen::Map<const Eigen::Array3f>(source.bounced.data()) * has_[source.sample];
     if (source.other != LightMesh::kNone)
       sum += Eigen::Map<const Eigen::Array3f>(source.through.data()) * has_[source.other];
-    sent_[source.sample] = sum;
+    sent_[source.sample].head<3>() = sum;
   });
+}
+
+/// From all that a room sees.
+Arrived DiscsInRooms::arriving(std::size_t room) const {
+  Eigen::Array4f above = Eigen::Array4f::Zero(), below = Eigen::Array4f::Zero();
+  visitLinks(data_.rooms, room, [&](const SampleSeen& other, bool up) {
+    Eigen::Array4f light = other.weight * sent_[other.sample];
+    if (!other.tint.white()) light.head<3>() = other.of(sent_[other.sample].head<3>());
+    (up ? above : below) += light;
+  });
+  return {above.head<3>(), below.head<3>()};
 }
 
 /// Returns by how much the light of rooms has changed, as a share of it, on average over those of a block:
@@ -255,10 +266,7 @@ double DiscsInRooms::receive() {
   tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
     const std::size_t first = block * kOfTask, end = std::min(count, first + kOfTask);
     for (std::size_t room = first; room < end; ++room) {
-      Arrived sum;
-      visitLinks(rooms, room, [&](const SampleSeen& other, bool up) {
-        (up ? sum.above : sum.below) += other.of(sent_[other.sample]);
-      });
+      Arrived sum = arriving(room);
       sum.below += mirrored_[room];
       arrived_[room] = sum;
       Eigen::Array3f& has = has_[rooms.samples[room]];

@@ -33,13 +33,14 @@ class DiscsInRooms {
   void findAsked();
   void startFromPatches(const sky::DiscLight& disc, const ThroughCloud& through);
   void send();
+  Arrived arriving(std::size_t room) const;
   double receive();
 
   const TransportData& data_;
   std::vector<std::uint32_t> asked_;    ///< samples whose light matters here: rooms and what they see
   std::vector<Eigen::Array3f> direct_;  ///< of each source: luminance × π by light straight from the discs
   std::vector<Eigen::Array3f> has_;     ///< of each sample that is asked: illuminance by surfaces, lx
-  std::vector<Eigen::Array3f> sent_;    ///< of each sample: luminance × π
+  std::vector<Eigen::Array4f> sent_;    ///< of each sample: luminance × π, and 0, as processors read it
   std::vector<Eigen::Array3f> mirrored_;  ///< of each room: by way of the ground as a mirror, lx
   std::vector<Eigen::Array3f> glints_;    ///< of each room: by way of polished floors, lx
   std::vector<Arrived> arrived_;          ///< of each room

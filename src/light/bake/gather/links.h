@@ -31,12 +31,20 @@ struct SampleSeen {
 /// Calls visit(SampleSeen, whether it is seen above the horizon) for all that a room sees.
 template <typename Visit>
 void visitLinks(const BakedRooms& rooms, std::size_t room, const Visit& visit) {
-  for (std::uint32_t k = rooms.first[room]; k < rooms.first[room + 1]; ++k) {
-    const BakedRooms::Link link = rooms.links[k];
-    const PackedTint tint = tintOf(rooms.link_tints, k);
-    visit(SampleSeen{link.sample(), rooms.scales[room] * BakedRooms::weightOf(link), tint},
-          k < rooms.below[room]);
-  }
+  // Copies, which no compiler has to fetch again after each visit.
+  const BakedRooms::Link* const links = rooms.links.data();
+  const PackedTint* const tints = rooms.link_tints.empty() ? nullptr : rooms.link_tints.data();
+  const float scale = rooms.scales[room];
+  const auto visitThose = [&](std::uint32_t first, std::uint32_t end, bool up) {
+    for (std::uint32_t k = first; k < end; ++k) {
+      visit(SampleSeen{links[k].sample(), scale * BakedRooms::weightOf(links[k]),
+                       tints == nullptr ? PackedTint() : tints[k]},
+            up);
+    }
+  };
+  const std::uint32_t below = rooms.below[room];
+  visitThose(rooms.first[room], below, true);
+  visitThose(below, rooms.first[room + 1], false);
 }
 
 }  // namespace sunlit::light
