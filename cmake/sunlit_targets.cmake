@@ -5,7 +5,10 @@ add_library(sunlit_flags INTERFACE)
 target_compile_options(sunlit_flags INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   # One rounding per operation, so that results do not depend on how a compiler fuses them.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # Nobody replaces a function of a library at run time: it calls its own, and inlines them. Copies of inline functions belong to
+  # who makes them; those of tests, with fewer optimisations, serve no library.
+  -fno-semantic-interposition -fvisibility-inlines-hidden)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
   # Nor on how Eigen does, which asks for the instruction by name where this says that there is one; nor on the width of its
   # vectors. What is parsed once would have to come before the header.
@@ -62,19 +65,15 @@ function(sunlit_together target)
   endif()
 endfunction()
 
-# sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...] [OPTIONS option...])
-# The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE; compiled with these further options.
+# sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...])
+# The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE.
 function(sunlit_library module)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;OPTIONS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(sunlit_${module} SHARED ${ARG_SOURCES})
   target_include_directories(sunlit_${module} PUBLIC ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(sunlit_${module} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE sunlit_flags ${ARG_PRIVATE})
-  if(ARG_OPTIONS)  # headers that were parsed without them do not serve
-    target_compile_options(sunlit_${module} PRIVATE ${ARG_OPTIONS})
-    target_precompile_headers(sunlit_${module} PRIVATE ${sunlit_parsed_once})
-  else()
-    target_precompile_headers(sunlit_${module} REUSE_FROM sunlit_library_headers)
-  endif()
+  target_link_options(sunlit_${module} PRIVATE -Wl,-Bsymbolic-functions)  # no table of what it calls of its own
+  target_precompile_headers(sunlit_${module} REUSE_FROM sunlit_library_headers)
   sunlit_together(sunlit_${module})
   install(TARGETS sunlit_${module} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 endfunction()
@@ -92,15 +91,14 @@ function(sunlit_program name)
 endfunction()
 
 # Test programs are linked by gold where there is one, in a tenth of the time: there are hundreds. And compiled with fewer
-# optimisations: they call what computes. Their copies of inline functions are theirs alone, so that a library goes on with its
-# own, which are faster.
+# optimisations: they call what computes.
 include(CheckCXXSourceCompiles)
 set(CMAKE_REQUIRED_LINK_OPTIONS -fuse-ld=gold)
 check_cxx_source_compiles("int main() { return 0; }" SUNLIT_GOLD)
 unset(CMAKE_REQUIRED_LINK_OPTIONS)
 add_library(sunlit_test_flags INTERFACE)
 target_link_libraries(sunlit_test_flags INTERFACE sunlit_flags ${CMAKE_DL_LIBS})  # dladdr(), which C libraries before 2.34 have apart
-target_compile_options(sunlit_test_flags INTERFACE $<$<CONFIG:Release>:-O1> -fvisibility-inlines-hidden)
+target_compile_options(sunlit_test_flags INTERFACE $<$<CONFIG:Release>:-O1>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   # They take an optional within an empty optional for one that is read, where so few optimisations are made.
   target_compile_options(sunlit_test_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-maybe-uninitialized>)
