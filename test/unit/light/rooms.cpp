@@ -276,16 +276,22 @@ std::vector<Looked> topsOfWalls(int count, float step_m) {
 
 TEST(Rooms, AreLitAlikeAlongTheirCorners) {
   const std::vector<Looked> places = topsOfWalls(11, 0.375f);
-  // Measured 2.9 and 7.4 % by the sun, 2.4 and 7.2 % by the sky, and on another processor, the same sources,
-  // 3.7 and 8.6 %, 2.2 and 6.9 %; 5.4 and 23 %, 3.9 and 18 % where some of these samples knew what they see
-  // and others did not.
-  for (const auto& [day, worst_mean] :
-       {std::pair(onlySun(150.0, 50.0), 0.045), {uniformDay(100.0f), 0.035}}) {
-    const Errors found =
+  const auto found = [&](const sky::Daylight& day) {
+    const Errors errors_then =
         errors(fast(windowedRoom(), places, day), traced(windowedRoom(), places, day, 20000));
-    EXPECT_LT(found.mean, worst_mean);
-    EXPECT_LT(found.worst, 0.1);
-  }
+    EXPECT_LT(errors_then.worst, 0.1);
+    return errors_then.mean;
+  };
+  const std::vector<std::pair<double, double>> suns = {
+      {140.0, 45.0}, {150.0, 50.0}, {160.0, 55.0}, {200.0, 50.0}, {215.0, 40.0}};
+  double by_suns = 0.0;
+  for (const auto& [azimuth_deg, elevation_deg] : suns)
+    by_suns += found(onlySun(azimuth_deg, elevation_deg)) / static_cast<double>(suns.size());
+  // One sun's patch on the floor is met by chance: 1.8 to 3.7 %, of which 0.4 % is noise of the traced light.
+  // Measured 2.5 % in the mean over these, 2.2 to 2.4 % by the sky; 5.4 % by one of them and 3.9 % where some
+  // of these samples knew what they see and others did not.
+  EXPECT_LT(by_suns, 0.033);
+  EXPECT_LT(found(uniformDay(100.0f)), 0.035);
 }
 
 TEST(Rooms, SeeTheGroundThroughWindowsByAsManyRaysAsTheSky) {
