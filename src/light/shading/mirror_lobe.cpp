@@ -20,10 +20,24 @@ constexpr float kSmoothest = scene::Material::kSmoothest;
 struct Sample {
   Eigen::Vector3f towards;
   float plain, grazing;
+  float turn = 0.0f;  ///< from the view, where it is asked for
   /// Of a dielectric.
   float weight() const { return kDielectricF0 * plain + grazing; }
-  float turn() const { return std::abs(std::atan2(towards.y(), towards.x())); }
 };
+
+/// Places in the half of the unit disc that every lobe is made of.
+const std::vector<Eigen::Vector2f>& halfDisc() {
+  static const std::vector<Eigen::Vector2f> places = [] {
+    std::vector<Eigen::Vector2f> all;
+    for (int i = 0; i < kAcross * kAcross; ++i) {
+      const float radius = std::sqrt((static_cast<float>(i % kAcross) + 0.5f) / kAcross);
+      const float turn = kPiFloat * (static_cast<float>(i / kAcross) + 0.5f) / kAcross;
+      all.emplace_back(radius * std::cos(turn), radius * std::sin(turn));
+    }
+    return all;
+  }();
+  return places;
+}
 
 /// Directions to the left of the view, by the normals that the eye sees; weighed by F · G2 / G1.
 std::vector<Sample> leftHalf(float roughness, float n_v) {
@@ -31,11 +45,8 @@ std::vector<Sample> leftHalf(float roughness, float n_v) {
   // The eye is behind: the view goes along x.
   const Eigen::Vector3f eye(-std::sqrt(std::max(0.0f, 1.0f - n_v * n_v)), 0.0f, n_v);
   std::vector<Sample> samples;
-  for (int i = 0; i < kAcross * kAcross; ++i) {
-    const float radius = std::sqrt((static_cast<float>(i % kAcross) + 0.5f) / kAcross);
-    const float turn = kPiFloat * (static_cast<float>(i / kAcross) + 0.5f) / kAcross;
-    const Eigen::Vector3f half =
-        facets.visibleNormal(eye, {radius * std::cos(turn), radius * std::sin(turn)});
+  for (const Eigen::Vector2f& place : halfDisc()) {
+    const Eigen::Vector3f half = facets.visibleNormal(eye, place);
     const float v_h = std::clamp(eye.dot(half), 0.0f, 1.0f);
     const Eigen::Vector3f towards = (2.0f * v_h * half - eye).normalized();
     if (towards.z() <= 1e-4f) continue;
@@ -72,8 +83,9 @@ Eigen::Vector3f meanOf(std::vector<Sample>::const_iterator begin, std::vector<Sa
 }
 
 MirrorLobe makeLobe(std::vector<Sample> samples) {
+  for (Sample& sample : samples) sample.turn = std::abs(std::atan2(sample.towards.y(), sample.towards.x()));
   std::stable_sort(samples.begin(), samples.end(),
-                   [](const Sample& a, const Sample& b) { return a.turn() < b.turn(); });
+                   [](const Sample& a, const Sample& b) { return a.turn < b.turn; });
   MirrorLobe lobe;
   std::size_t next = 0;
   auto begin = samples.begin();

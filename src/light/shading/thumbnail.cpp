@@ -13,13 +13,46 @@ namespace {
 /// A little of what is cut out counts, so that where nothing else is there is a colour, too.
 constexpr float kOfHoles = 4e-6f;
 
-Eigen::Array4f valueOf(const std::uint8_t* rgba, Thumbnail::Kind kind) {
-  if (kind == Thumbnail::Kind::kData) return Eigen::Array4f(rgba[0], rgba[1], rgba[2], 255.0f) / 255.0f;
-  const std::array<float, 256>& linear = image::linearOfSrgb();
-  const float solid = static_cast<float>(rgba[3]) / 255.0f + kOfHoles;
-  return {linear[rgba[0]], linear[rgba[1]], linear[rgba[2]],
-          kind == Thumbnail::Kind::kSolidColor ? solid : 1.0f};
-}
+/// What bytes of a texel are worth. In three parts, which are added: each knows one channel, and the first 1.
+class Values {
+ public:
+  explicit Values(Thumbnail::Kind kind) : has_holes_(kind == Thumbnail::Kind::kSolidColor) {
+    for (std::size_t byte = 0; byte < 256; ++byte) {
+      const float share = static_cast<float>(byte) / 255.0f;
+      const float value = kind == Thumbnail::Kind::kData ? share : image::linearOfSrgb()[byte];
+      red_[byte] = {value, 0.0f, 0.0f, 1.0f};
+      green_[byte] = {0.0f, value, 0.0f, 0.0f};
+      blue_[byte] = {0.0f, 0.0f, value, 0.0f};
+      solid_[byte] = share + kOfHoles;
+    }
+  }
+  static const Values& of(Thumbnail::Kind kind) {
+    static const Values color(Thumbnail::Kind::kColor), solid_color(Thumbnail::Kind::kSolidColor),
+        data(Thumbnail::Kind::kData);
+    return kind == Thumbnail::Kind::kData ? data : kind == Thumbnail::Kind::kColor ? color : solid_color;
+  }
+
+  /// r g b and 1.
+  Eigen::Array4f color(const std::uint8_t* rgba) const {
+    return red_[rgba[0]] + green_[rgba[1]] + blue_[rgba[2]];
+  }
+  float solid(const std::uint8_t* rgba) const { return has_holes_ ? solid_[rgba[3]] : 1.0f; }
+
+  Eigen::Array4f sum(const std::uint8_t* rgba, int texels, Eigen::Array4f from) const {
+    const std::uint8_t* const end = rgba + 4 * texels;
+    if (has_holes_) {
+      for (; rgba != end; rgba += 4) from += color(rgba) * solid_[rgba[3]];
+    } else {
+      for (; rgba != end; rgba += 4) from += color(rgba);
+    }
+    return from;
+  }
+
+ private:
+  bool has_holes_;
+  std::array<Eigen::Array4f, 256> red_, green_, blue_;
+  std::array<float, 256> solid_;
+};
 
 /// Of so many squares the first of the texels of each, and behind them the number of all texels.
 std::vector<int> beginsOf(int squares, int texels) {
@@ -43,17 +76,15 @@ Thumbnail::Thumbnail(const scene::Texture& texture, Kind kind)
       height_(std::min(texture.height, kMost)),
       squares_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), Eigen::Array4f::Zero()) {
   const std::vector<int> columns = beginsOf(width_, texture.width), rows = beginsOf(height_, texture.height);
+  const Values& values = Values::of(kind);
   const std::uint8_t* rgba = texture.rgba.data();
   Eigen::Array4f* square = squares_.data();
   for (std::size_t row = 0; row + 1 < rows.size(); ++row, square += width_) {
     for (int y = rows[row]; y < rows[row + 1]; ++y) {
       for (std::size_t column = 0; column + 1 < columns.size(); ++column) {
-        Eigen::Array4f sum = square[column];
-        for (int x = columns[column]; x < columns[column + 1]; ++x, rgba += 4) {
-          const Eigen::Array4f value = valueOf(rgba, kind);
-          sum += Eigen::Array4f(value[0], value[1], value[2], 1.0f) * value[3];
-        }
-        square[column] = sum;
+        const int texels = columns[column + 1] - columns[column];
+        square[column] = values.sum(rgba, texels, square[column]);
+        rgba += 4 * texels;
       }
     }
     for (std::size_t column = 0; column + 1 < columns.size(); ++column) {
@@ -70,7 +101,12 @@ Eigen::Array4f Thumbnail::at(const Eigen::Vector2f& uv, Grain grain) const {
   const int width = texels ? texture_.width : width_, height = texels ? texture_.height : height_;
   const std::size_t number = numberOf(uv.y(), texture_.wrap_v, height) * static_cast<std::size_t>(width) +
                              numberOf(uv.x(), texture_.wrap_u, width);
-  return texels ? valueOf(texture_.rgba.data() + 4 * number, kind_) : squares_[number];
+  if (!texels) return squares_[number];
+  const Values& values = Values::of(kind_);
+  const std::uint8_t* const rgba = texture_.rgba.data() + 4 * number;
+  Eigen::Array4f value = values.color(rgba);
+  value[3] = values.solid(rgba);
+  return value;
 }
 
 Eigen::Array2f Thumbnail::size(Grain grain) const {
