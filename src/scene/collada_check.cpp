@@ -289,8 +289,9 @@ class Check {
       const bool is_matrix = attributeOf(*input, "semantic") == "INV_BIND_MATRIX";
       if (is_matrix && (source->parameters < 16 || source->count < joints))
         fail(*input, "must have a matrix for each of " + std::to_string(joints) + " joints");
-      if (attributeOf(*input, "semantic") == "JOINT" && source->values != source->count)
-        fail(*input, "must have as many names as its accessor counts");
+      if (attributeOf(*input, "semantic") != "JOINT" || source->values == source->count) continue;
+      fail(*input, source->values == Source().values ? "has an accessor that names no array"
+                                                     : "must have as many names as its accessor counts");
     }
     for (XMLElement* list : below(skin, "vertex_weights")) {
       const std::uint64_t count = whole(*list, "count", 0);

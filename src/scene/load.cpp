@@ -84,14 +84,15 @@ Scene loadUrdf(const std::string& file, const SearchPath& search_path) {
 std::string worldIn(const std::string& folder) {
   std::vector<std::string> worlds;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (isOneOf(extensionOf(entry.path().string()), {".world", ".sdf"}))
-      worlds.push_back(entry.path().string());
+    const std::string name = entry.path().filename().string();  // macOS leaves files of its own, ._a.world
+    if (name.front() != '.' && isOneOf(extensionOf(name), {".world", ".sdf"})) worlds.push_back(name);
   }
-  if (worlds.size() == 1) return worlds[0];
+  std::sort(worlds.begin(), worlds.end());
+  if (worlds.size() == 1) return (std::filesystem::path(folder) / worlds[0]).string();
   const std::string of_names = " in this folder, of names that end in .world or .sdf";
   if (worlds.empty()) throw std::runtime_error(folder + ": there is no world" + of_names);
   throw std::runtime_error(folder + ": there are " + std::to_string(worlds.size()) + " worlds" + of_names +
-                           ": name one of them");
+                           ", the first of them " + worlds[0] + " and " + worlds[1] + ": name one of them");
 }
 
 /// Throws std::runtime_error where there is none.

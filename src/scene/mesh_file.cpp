@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/assimp_mesh.h"
 #include "scene/assimp_nodes.h"
 #include "scene/back_to_back.h"
 #include "scene/collada_check.h"
@@ -24,7 +25,6 @@
 #include "scene/collada_morphs.h"
 #include "scene/collada_sets.h"
 #include "scene/collada_text.h"
-#include "scene/color.h"
 #include "scene/mesh_material.h"
 #include "scene/mesh_rest.h"
 #include "scene/mesh_vertices.h"
@@ -53,77 +53,8 @@ Eigen::Affine3d zUpFromYUp() {
   return rotation;
 }
 
-/// Colours are linear in glTF, and display values elsewhere.
-Eigen::Array3f vertexColor(const aiColor4D& color, bool linear) {
-  if (linear) return {color.r, color.g, color.b};
-  return linearFromSrgb({color.r, color.g, color.b}).value;
-}
-
-/// Of COLLADA, the first set stands for one that the mesh has not: its materials may but guess its number.
-std::vector<Eigen::Vector2f> coordinatesOf(const aiMesh& source, const CoordinateRecipe& recipe, bool gltf) {
-  std::vector<Eigen::Vector2f> coordinates;
-  auto set = static_cast<unsigned>(recipe.set);
-  if (!gltf && (set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !source.HasTextureCoords(set))) set = 0;
-  if (set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !source.HasTextureCoords(set)) return coordinates;
-  for (unsigned i = 0; i < source.mNumVertices; ++i)
-    coordinates.push_back(recipe({source.mTextureCoords[set][i].x, source.mTextureCoords[set][i].y}));
-  return coordinates;
-}
-
-std::vector<Eigen::Vector4f> tangentsOf(const aiMesh& source) {
-  std::vector<Eigen::Vector4f> tangents;
-  if (!source.HasTangentsAndBitangents() || !source.HasNormals()) return tangents;
-  for (unsigned i = 0; i < source.mNumVertices; ++i) {
-    const aiVector3D &t = source.mTangents[i], &b = source.mBitangents[i], &n = source.mNormals[i];
-    const float hand = ((n ^ t) * b) < 0.0f ? -1.0f : 1.0f;
-    tangents.emplace_back(t.x, t.y, t.z, hand);
-  }
-  return tangents;
-}
-
-Mesh toMesh(const aiMesh& source, const MeshLook& look, bool gltf) {
-  Mesh mesh;
-  mesh.material = look.material;
-  mesh.positions.reserve(source.mNumVertices);
-  for (unsigned i = 0; i < source.mNumVertices; ++i) {
-    const aiVector3D& position = source.mVertices[i];
-    mesh.positions.emplace_back(position.x, position.y, position.z);
-    if (source.HasNormals()) {
-      const aiVector3D& normal = source.mNormals[i];
-      mesh.normals.emplace_back(normal.x, normal.y, normal.z);
-    }
-    if (source.HasVertexColors(0)) mesh.colors.push_back(vertexColor(source.mColors[0][i], gltf));
-  }
-  mesh.texture_coordinates = coordinatesOf(source, look.coordinates.front(), gltf);
-  for (std::size_t i = 1; i < look.coordinates.size(); ++i)
-    mesh.more_texture_coordinates.push_back(coordinatesOf(source, look.coordinates[i], gltf));
-  if (gltf) mesh.tangents = tangentsOf(source);
-  mesh.triangles.reserve(source.mNumFaces);
-  for (unsigned i = 0; i < source.mNumFaces; ++i) {
-    const aiFace& face = source.mFaces[i];
-    if (face.mNumIndices == 3)
-      mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
-  }
-  return mesh;
-}
-
-/// Assimp gives colours without an alpha one of 0.
-bool hasAlpha(const aiColor4D* colors, unsigned count) {
-  const auto any = [&](auto is) { return colors != nullptr && std::any_of(colors, colors + count, is); };
-  return any([](const aiColor4D& color) { return color.a < 1.0f; }) &&
-         any([](const aiColor4D& color) { return color.a > 0.0f; });
-}
-
-/// Lines and points have no surface to light.
-bool hasSurface(const aiMesh& mesh) {
-  return (mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0;
-}
-
-/// Whether most of its normals are of no length, as STL has them where it leaves them to its reader.
-bool hasVoidNormals(const aiMesh& mesh) {
-  if (!mesh.HasNormals()) return false;
-  const auto is_void = [](const aiVector3D& normal) { return !(normal.SquareLength() > 0.0f); };  // NaN too
-  return 2 * std::count_if(mesh.mNormals, mesh.mNormals + mesh.mNumVertices, is_void) > mesh.mNumVertices;
+bool isGltf(const std::string& extension) {
+  return extension == ".gltf" || extension == ".glb";
 }
 
 void setUp(Assimp::Importer& importer, UpAxis up_axis) {
@@ -134,14 +65,16 @@ void setUp(Assimp::Importer& importer, UpAxis up_axis) {
 }
 
 /// The scene that `importer` has read, as it is used here; null where Assimp fails.
-const aiScene* prepared(Assimp::Importer& importer, bool gltf) {
+const aiScene* prepared(Assimp::Importer& importer, const std::string& extension) {
   const aiScene* const scene = importer.GetScene();
   if (scene == nullptr) return nullptr;
+  const bool gltf = isGltf(extension);
   bool has_more = false;  // than one set of texture coordinates a vertex
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     aiMesh& mesh = *scene->mMeshes[i];
+    if (extension == ".stl") dropColors(mesh);
     has_more = has_more || mesh.HasVertexColors(0) || mesh.GetNumUVChannels() > 1;
-    if (hasVoidNormals(mesh)) delete[] std::exchange(mesh.mNormals, nullptr);
+    if (hasVoidNormals(mesh)) dropNormals(mesh);
   }
   unsigned steps = kSteps;
   if (!gltf) {
@@ -352,7 +285,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, const MeshReading& r
   SceneBuilder unused(file);
   SceneBuilder& look_builder = reading.looks ? builder : unused;
   const std::string extension = extensionOf(file);
-  const bool gltf = extension == ".gltf" || extension == ".glb";
+  const bool gltf = isGltf(extension);
   Assimp::Importer importer;
   std::optional<GltfMaterials> gltf_materials;
   ObjLibraries libraries;
@@ -365,7 +298,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, const MeshReading& r
   }
   setUp(importer, reading.up_axis);
   ColladaEffects effects = readInto(importer, file, builder);
-  const aiScene* const scene = prepared(importer, gltf);
+  const aiScene* const scene = prepared(importer, extension);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString() +
                              (gltf ? gltf_materials->whatItNeeds() : ""));

@@ -84,11 +84,12 @@ bool isBare(const aiMaterial& source, const MeshFileContext& context) {
   return extension != ".dae" || source.Get(AI_MATKEY_SHADING_MODEL, shading) != aiReturn_SUCCESS;
 }
 
-/// Whether its colour is Assimp's own. STL and PLY may have one, and come out as white as nothing is where
-/// they have none.
+/// Whether its colour is Assimp's own, or that of a header of STL, which Assimp takes where no face seems to
+/// have one. PLY may have one, and comes out as white as nothing is where it has none.
 bool isInvented(const aiMaterial& source, const MeshFileContext& context) {
   const std::string extension = extensionOf(context.file);
   if (extension == ".obj") return !isOfLibrary(source, context);
+  if (extension == ".stl") return true;
   aiColor4D color(1.0f, 1.0f, 1.0f, 1.0f);
   source.Get(AI_MATKEY_COLOR_DIFFUSE, color);
   return isBare(source, context) && (extension == ".dae" || std::min({color.r, color.g, color.b}) >= 1.0f);

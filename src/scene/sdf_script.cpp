@@ -1,6 +1,7 @@
 #include "scene/sdf_script.h"
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -22,7 +23,8 @@ std::vector<std::string> scriptFiles(const std::string& place) {
     for (fs::directory_iterator entry(fs::path(place) / folder, error), end; !error && entry != end;
          entry.increment(error)) {
       std::error_code unknown;
-      if (entry->path().extension() == ".material" && entry->is_regular_file(unknown))
+      const bool is_hidden = entry->path().filename().string().front() == '.';  // as macOS leaves its own
+      if (!is_hidden && entry->path().extension() == ".material" && entry->is_regular_file(unknown))
         files.push_back(entry->path().lexically_normal().string());
     }
   }
@@ -102,6 +104,8 @@ const std::string& MaterialScripts::textOf(const std::string& file) {
     place->second = utf8Of({std::istreambuf_iterator<char>(stream), {}}, file);
   } catch (const image::ContentMissing& error) {
     builder_.warn("material scripts are missing", error.what());
+  } catch (const std::exception& error) {
+    builder_.warn("material scripts cannot be read", error.what());
   }
   return place->second;
 }

@@ -66,6 +66,15 @@ TEST_F(ColladaSkin, MayHaveBlanksBeforeItsNumbers) {
   }
 }
 
+TEST_F(ColladaSkin, IsRefusedByWhatItIsWhereItsJointsHaveNoArray) {
+  std::string text = skin("name='upper'");
+  const std::string array = "source='#ja'";
+  ASSERT_NE(text.find(array), std::string::npos);
+  text.replace(text.find(array), array.size(), "source='#j'");
+  const std::string error = errorOf(write("t.dae", text));
+  EXPECT_NE(error.find("<input>: has an accessor that names no array"), std::string::npos) << error;
+}
+
 TEST_F(ColladaSkin, StandsAtItsNodeAndIsNamedWhereItsJointIsNotKnown) {
   for (const std::string& text : {skin("name='upper'", "<node id='o' name='upper'/>"), skin("")}) {
     const Scene scene = load(write("t.dae", text), {});

@@ -64,6 +64,7 @@ TEST_F(FuelSpellings, WorldsAreTheOneInTheirFolder) {
       "<?xml version='1.0'?><sdf version='1.9'><world name='w'><model name='m'><link name='l'><visual "
       "name='v'><geometry><box><size>2 2 2</size></box></geometry></visual></link></model></world></sdf>";
   write(folder + "1/shapes.sdf", box);
+  write(folder + "1/._shapes.sdf", "left by macOS");
   write(folder + "1/thumbnails/1.png", "");
   std::filesystem::create_directories(pathOf(folder + "2"));
   const std::string address = kServer + "o/worlds/shapes";
@@ -74,7 +75,8 @@ TEST_F(FuelSpellings, WorldsAreTheOneInTheirFolder) {
   write(folder + "3/b.sdf", box);
   EXPECT_EQ(errorOf(address, cached()),
             pathOf(folder + "3") +
-                ": there are 2 worlds in this folder, of names that end in .world or .sdf: name one of them");
+                ": there are 2 worlds in this folder, of names that end in .world or .sdf, the first of them "
+                "a.sdf and b.sdf: name one of them");
   EXPECT_EQ(boundsOf(load(address + "/3/files/b.sdf", cached())).max().x(), 1.0f);
 }
 

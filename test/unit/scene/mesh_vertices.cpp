@@ -123,5 +123,31 @@ TEST_F(MeshVertices, OfStlWithoutNormalsHaveEdges) {
   expectFlat(mesh);
 }
 
+/// A triangle of binary STL, with these two bytes behind it.
+std::string binaryStl(std::string header, std::uint16_t attribute) {
+  header.resize(80);
+  const std::uint32_t count = 1;
+  const std::array<float, 12> numbers = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const auto append = [&header](const void* from, std::size_t bytes) {
+    header.append(static_cast<const char*>(from), bytes);
+  };
+  append(&count, sizeof(count));
+  append(numbers.data(), sizeof(numbers));
+  append(&attribute, sizeof(attribute));
+  return header;
+}
+
+// Programs mean different things by these bytes, and by a colour in the header, and Gazebo none. Bit 15 is a
+// colour to some, to others that of the header.
+TEST_F(MeshVertices, OfStlHaveNoColours) {
+  for (const std::string header : {"Exported", "COLOR=\x80\x80\x80\xff, Materialise"}) {
+    for (const std::uint16_t attribute : {0x0000, 0x8000, 0xfc00}) {
+      const std::string file = write("part.stl", binaryStl(header, attribute));
+      EXPECT_TRUE(shownBy(file).colors.empty()) << header << attribute;
+      EXPECT_EQ(robotOf(file).materials.at(0).base_color.value[0], 0.18f) << header << attribute;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sunlit::scene

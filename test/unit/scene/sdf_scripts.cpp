@@ -53,6 +53,20 @@ TEST_F(SdfScripts, MayStandBesideFoldersOfSuchNames) {
   EXPECT_EQ(look(loaded("My/Paint", uri("model://m/scripts"))).base_color.value[1], 1.0f);
 }
 
+TEST_F(SdfScripts, BesideOthersThatCannotBeReadAreFound) {
+  const std::string utf16("\xff\xfem\0a\0t\0", 8);
+  write("share/m/scripts/._own.material", utf16);  // as macOS leaves one of each
+  write("share/m/scripts/broken.material", utf16);
+  write("share/m/scripts/own.material", script("My/Paint", "diffuse 0 1 0 1"));
+  const Scene scene = loaded("My/Paint", uri("model://m/scripts"));
+  EXPECT_EQ(look(scene).base_color.value[1], 1.0f);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0].find("1 material scripts cannot be read: " +
+                                   pathOf("share/m/scripts/broken.material")),
+            0u)
+      << scene.warnings[0];
+}
+
 TEST_F(SdfScripts, OfTheAddressesComeBeforeThoseOfMedia) {
   write("share/media/materials/scripts/own.material", script("My/Paint", "diffuse 1 0 0 1"));
   write("share/m/scripts/own.material", script("My/Paint", "diffuse 0 1 0 1"));
