@@ -51,7 +51,7 @@ int addMeshTexture(const std::string& name, const aiScene& scene, const MeshFile
   if (const aiTexture* embedded = scene.GetEmbeddedTexture(name.c_str())) {
     if (embedded->mHeight != 0) {
       context.builder.warn(
-          "textures are embedded as raw texels, which are not read, a neutral material takes their place",
+          "textures are embedded as raw texels, which are not read, neutral ones take their place",
           name + " of " + context.file);
       return Material::kNoTexture;
     }

@@ -314,7 +314,7 @@ SceneBuilder::Decoded SceneBuilder::decoded(const TextureSource& source) {
 void SceneBuilder::decodeTextures() {
   scene_.textures.resize(sources_.size());
   std::vector<std::string> errors(sources_.size());
-  constexpr const char* kBroken = "textures cannot be decoded, a neutral material takes their place";
+  constexpr const char* kBroken = "textures cannot be decoded, neutral ones take their place";
   std::vector<const char*> faults(sources_.size(), kBroken);
   std::vector<std::string> sizes(sources_.size());
   std::vector<std::string> lost(sources_.size());

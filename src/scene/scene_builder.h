@@ -34,7 +34,7 @@ enum class NormalsRule {
 constexpr int kLongestTextureSide = 8192;
 
 /// Kinds of warnings that several importers have.
-constexpr const char* kMissingTextures = "textures are missing, a neutral material takes their place";
+constexpr const char* kMissingTextures = "textures are missing, neutral ones take their place";
 constexpr const char* kNotRendered = "features of materials are not rendered";
 constexpr const char* kPicturesOfGazebo =
     "materials have a picture that comes with Gazebo, a colour like it takes its place";

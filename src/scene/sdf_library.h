@@ -24,18 +24,6 @@
 
 namespace sunlit::scene {
 
-/// The library's whole schema, which takes 35 ms to read.
-inline sdf::SDFPtr emptySdf() {
-  static const sdf::SDFPtr schema = [] {
-    auto made = std::make_shared<sdf::SDF>();
-    sdf::init(made);
-    return made;
-  }();
-  auto copy = std::make_shared<sdf::SDF>();
-  copy->Root(schema->Root()->Clone());
-  return copy;
-}
-
 /// The first child of this name; null where there is none.
 inline sdf::ElementPtr firstIn(sdf::Element& parent, const std::string& name) {
   return parent.HasElement(name) ? parent.GetElementImpl(name) : nullptr;

@@ -315,6 +315,20 @@ bool isTakenOut(const XMLElement& element, const XMLElement& sdf) {
   return known != kChildren.end() && known->second.kept.count(element.Value()) == 0;
 }
 
+bool isOfKnownChildren(const XMLElement& sdf) {
+  return minorVersion(sdf) >= kOldestPruned;
+}
+
+bool isMendedWithin(const std::string& parent) {
+  return kChildren.count(parent) == 1;
+}
+
+bool mayRemain(const std::string& parent, const std::string& child) {
+  // Of joints frames remain, or nothing; and every model gets a <static>.
+  if (parent == "model" && (child == "joint" || child == "static")) return child == "static";
+  return kChildren.at(parent).kept.count(child) == 1;
+}
+
 void mendSdf(XMLElement& sdf, const std::string& file, SceneBuilder& builder) {
   int version = minorVersion(sdf);
   if (version < 0) {

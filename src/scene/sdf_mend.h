@@ -25,6 +25,12 @@ void mendSdf(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& b
 /// Whether mendSdf() takes `element`, of a file whose root element is `sdf`, out with all that is in it.
 bool isTakenOut(const tinyxml2::XMLElement& element, const tinyxml2::XMLElement& sdf);
 
+/// The same of all files of version 1.4 or newer, as mendSdf() leaves `sdf` where this says so, by the names
+/// of elements: whether it takes anything out of one, and whether it may leave `child` in `parent`.
+bool isOfKnownChildren(const tinyxml2::XMLElement& sdf);
+bool isMendedWithin(const std::string& parent);
+bool mayRemain(const std::string& parent, const std::string& child);
+
 /// Leaves the first world of `sdf`, the root element of `file`: each of several has a place of its own. The
 /// others are a warning of `builder`.
 void keepFirstWorld(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& builder);

@@ -17,6 +17,7 @@
 #include "scene/sdf_library.h"
 #include "scene/sdf_parse.h"
 #include "scene/sdf_pose.h"
+#include "scene/sdf_schema.h"
 #include "scene/sdf_xml.h"
 
 namespace sunlit::scene {
@@ -108,7 +109,7 @@ sdf::Errors loadRoot(tinyxml2::XMLDocument& document, const std::vector<const Sd
   config.RegisterCustomModelParser(
       [&](const sdf::NestedInclude& include, sdf::Errors&) { return interfaceOf(include, sources, file); });
   sdf::Errors errors;
-  const sdf::SDFPtr parsed = emptySdf();
+  const sdf::SDFPtr parsed = emptySdfFor(document);
   parsed->Root()->SetFilePath(file.path);  // which its elements inherit
   if (sdf::readString(printed(document), config, parsed, errors)) {
     const sdf::Errors more = file.root.Load(parsed, config);

@@ -15,6 +15,7 @@
 #include "scene/sdf_library.h"
 #include "scene/sdf_parse.h"
 #include "scene/sdf_pose.h"
+#include "scene/sdf_schema.h"
 #include "scene/sdf_xml.h"
 #include "sunlit/quantity/angle.h"
 
@@ -222,7 +223,7 @@ sdf::Errors loadRoot(tinyxml2::XMLDocument& document, const std::vector<const Sd
   }
   Includes(sources, file).replaceIn(sdf);
   sdf::Errors errors;
-  const sdf::SDFPtr parsed = emptySdf();
+  const sdf::SDFPtr parsed = emptySdfFor(document);
   parsed->Root()->SetFilePath(file.path);  // which its elements inherit
   if (sdf::readString(printed(document), parsed, errors)) {
     const sdf::Errors more = file.root.Load(parsed);

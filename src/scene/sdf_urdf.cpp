@@ -9,6 +9,7 @@
 
 #include "scene/sdf_console.h"
 #include "scene/sdf_library.h"
+#include "scene/sdf_schema.h"
 #include "scene/sdf_xml.h"
 
 namespace sunlit::scene {

@@ -86,7 +86,7 @@ TEST_F(GitLfs, ATextureIsMissing) {
   write("t.mtl", "newmtl a\nmap_Kd p.png\n");
   write("t.obj", "mtllib t.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Scene scene = load(worldWith("<mesh><uri>t.obj</uri></mesh>"), {});
-  expectWarning(scene, "1 textures are missing, a neutral material takes their place: " + saysOf("p.png"));
+  expectWarning(scene, "1 textures are missing, neutral ones take their place: " + saysOf("p.png"));
 }
 
 TEST_F(GitLfs, AScriptIsMissing) {
@@ -108,7 +108,7 @@ TEST_F(GitLfs, AHeightMapAndItsLayersAreMissing) {
   const std::string layer = "<texture><diffuse>p.png</diffuse><normal>n.png</normal><size>1</size></texture>";
   const Scene bare = load(
       worldWith("<heightmap><uri>heights.png</uri><size>8 8 1</size>" + layer + layer + "</heightmap>"), {});
-  expectWarning(bare, "1 textures are missing, a neutral material takes their place: " + saysOf("p.png"));
+  expectWarning(bare, "1 textures are missing, neutral ones take their place: " + saysOf("p.png"));
 }
 
 }  // namespace

@@ -177,7 +177,7 @@ TEST_F(MeshFile, ATextureInOtherCaseIsFoundWithAWarning) {
 
 TEST_F(MeshFile, AMissingTextureIsANamedWarningAndANeutralMaterial) {
   const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "gone.png")), {});
-  expectOneWarning(scene, "1 textures are missing, a neutral material takes their place: gone.png");
+  expectOneWarning(scene, "1 textures are missing, neutral ones take their place: gone.png");
   EXPECT_TRUE(scene.textures.empty());
   EXPECT_EQ(scene.materials[0].base_color.value[0], 0.18f);
 }
@@ -239,7 +239,7 @@ TEST_F(MeshFile, ABrokenTextureIsANamedWarningAndANeutralMaterial) {
   for (const char* content : {"this is not a picture", ""}) {
     write("paint.png", content);
     const Scene scene = load(mesh, {});
-    expectOneWarning(scene, "1 textures cannot be decoded, a neutral material takes their place: " +
+    expectOneWarning(scene, "1 textures cannot be decoded, neutral ones take their place: " +
                                 pathOf("paint.png") + ": cannot decode this picture");
     EXPECT_EQ(scene.materials[0].base_texture, Material::kNoTexture);
     EXPECT_EQ(scene.materials[0].base_color.value[0], 0.18f);
@@ -268,7 +268,7 @@ TEST_F(MeshFile, AHundredWarningsOfAKindAreOneLine) {
   write("m.mtl", materials);
   const std::string mesh = write("t.obj", faces);
   expectOneWarning(load(mesh, {}),
-                   "100 textures are missing, a neutral material takes their place: gone100.png; "
+                   "100 textures are missing, neutral ones take their place: gone100.png; "
                    "gone101.png; gone102.png; …");
 }
 
@@ -454,7 +454,7 @@ TEST_F(MeshFile, APictureWithoutAFileIsAMissingTexture) {
   const Scene scene = load(write("t.dae", text), {});
   EXPECT_EQ(scene.triangleCount(), 1u);
   expectOneWarning(scene,
-                   "1 textures are missing, a neutral material takes their place: image picture (which names "
+                   "1 textures are missing, neutral ones take their place: image picture (which names "
                    "no file)");
 }
 
@@ -468,10 +468,9 @@ TEST_F(MeshFile, APictureWithAnEmptyAddressIsAMissingTexture) {
     text.replace(text.find(file), file.size(), empty);
     const Scene scene = load(write("t.dae", text), {});
     EXPECT_EQ(scene.triangleCount(), 1u) << empty;
-    expectOneWarning(
-        scene,
-        "1 textures are missing, a neutral material takes their place: image picture (which names "
-        "no file)");
+    expectOneWarning(scene,
+                     "1 textures are missing, neutral ones take their place: image picture (which names "
+                     "no file)");
   }
 }
 
@@ -534,7 +533,7 @@ TEST_F(MeshFile, APipeThatAFileNamesIsRefusedInsteadOfWaitedFor) {
   };
   for (const char* name : {"p.png", "p.bin", "p.mtl"}) ASSERT_EQ(::mkfifo(pathOf(name).c_str(), 0600), 0);
   expectOneWarning(load(write("t.dae", collada(kCentimetresZUp, "p.png")), {}),
-                   "1 textures cannot be decoded, a neutral material takes their place: " + refusal("p.png"));
+                   "1 textures cannot be decoded, neutral ones take their place: " + refusal("p.png"));
   EXPECT_EQ(errorOf(write("t.obj", "mtllib p.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")),
             pathOf("t.obj") + ": its library " + refusal("p.mtl"));
   // Floats are read by Assimp, whole numbers before it.

@@ -254,7 +254,7 @@ TEST_F(SdfLook, OfLooksThatAreReplacedNothingIsSaid) {
     EXPECT_EQ(scene.triangleCount(), 1u);
   }
   const std::vector<std::string> missing = {
-      "1 textures are missing, a neutral material takes their place: gone.png of " + pathOf("roof.obj")};
+      "1 textures are missing, neutral ones take their place: gone.png of " + pathOf("roof.obj")};
   EXPECT_EQ(loaded("", "", roof).warnings, missing);
   // Of three visuals that show the same file, the last.
   const Scene both = loaded(own, "",

@@ -56,6 +56,23 @@ TEST_F(Sdf, NestedModelsMoveWithTheirParents) {
   EXPECT_EQ(scene.meshes[0].name, "outer::inner::l::v");
 }
 
+// Down to the second the library is told what may be in models, below it reads that itself.
+TEST_F(Sdf, NestedModelsMayBeDeep) {
+  std::string model = "<link name='l'><pose>0 0 1 0 0 0</pose><light name='lamp' type='point'/>" +
+                      boxVisual("0 0 1 0 0 0") + "</link>";
+  std::string name = "l::v";
+  for (const std::string depth : {"f", "e", "d", "c", "b", "a"}) {
+    model = "<model name='" + depth + "'><static>1</static><pose relative_to='at'>1 0 0 0 0 0</pose>" +
+            model + "<joint name='j' type='fixed'><parent>world</parent><child>l</child></joint></model>";
+    model = "<frame name='at'><pose>0 1 0 0 0 0</pose></frame>" + model;
+    name = depth + "::" + name;
+  }
+  const Scene scene = loaded(world(model));
+  expectBounds(scene, {5, 4, -1}, {7, 8, 5});
+  EXPECT_EQ(scene.meshes[0].name, name);
+  EXPECT_EQ(scene.lamps.size(), 1u);
+}
+
 TEST_F(Sdf, IncludesAreFoundAndPlaced) {
   write("models/crate/model.config",
         "<?xml version='1.0'?><model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
