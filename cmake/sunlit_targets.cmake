@@ -17,6 +17,10 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
   target_link_libraries(sunlit_flags INTERFACE Eigen3::Eigen)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
+# GCC takes an optional vector of Eigen's that is asked first for one that is read before it is set, where all of it is inlined.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(sunlit_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-maybe-uninitialized>)
+endif()
 # GCC 13 and later suspect every reference that a function with a temporary key gives, such as fieldOf(rows, "fx").
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   target_compile_options(sunlit_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-dangling-reference>)
@@ -99,10 +103,6 @@ unset(CMAKE_REQUIRED_LINK_OPTIONS)
 add_library(sunlit_test_flags INTERFACE)
 target_link_libraries(sunlit_test_flags INTERFACE sunlit_flags ${CMAKE_DL_LIBS})  # dladdr(), which C libraries before 2.34 have apart
 target_compile_options(sunlit_test_flags INTERFACE $<$<CONFIG:Release>:-O1>)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
-  # They take an optional within an empty optional for one that is read, where so few optimisations are made.
-  target_compile_options(sunlit_test_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-maybe-uninitialized>)
-endif()
 if(SUNLIT_GOLD)
   target_link_options(sunlit_test_flags INTERFACE -fuse-ld=gold)
 endif()
