@@ -16,14 +16,14 @@ constexpr float kOfHoles = 4e-6f;
 /// What bytes of a texel are worth. In three parts, which are added: each knows one channel, and the first 1.
 class Values {
  public:
-  explicit Values(Thumbnail::Kind kind) : has_holes_(kind == Thumbnail::Kind::kSolidColor) {
+  explicit Values(Thumbnail::Kind kind) {
     for (std::size_t byte = 0; byte < 256; ++byte) {
       const float share = static_cast<float>(byte) / 255.0f;
       const float value = kind == Thumbnail::Kind::kData ? share : image::linearOfSrgb()[byte];
       red_[byte] = {value, 0.0f, 0.0f, 1.0f};
       green_[byte] = {0.0f, value, 0.0f, 0.0f};
       blue_[byte] = {0.0f, 0.0f, value, 0.0f};
-      solid_[byte] = share + kOfHoles;
+      solid_[byte] = kind == Thumbnail::Kind::kSolidColor ? share + kOfHoles : 1.0f;
     }
   }
   static const Values& of(Thumbnail::Kind kind) {
@@ -36,20 +36,15 @@ class Values {
   Eigen::Array4f color(const std::uint8_t* rgba) const {
     return red_[rgba[0]] + green_[rgba[1]] + blue_[rgba[2]];
   }
-  float solid(const std::uint8_t* rgba) const { return has_holes_ ? solid_[rgba[3]] : 1.0f; }
+  float solid(const std::uint8_t* rgba) const { return solid_[rgba[3]]; }
 
   Eigen::Array4f sum(const std::uint8_t* rgba, int texels, Eigen::Array4f from) const {
     const std::uint8_t* const end = rgba + 4 * texels;
-    if (has_holes_) {
-      for (; rgba != end; rgba += 4) from += color(rgba) * solid_[rgba[3]];
-    } else {
-      for (; rgba != end; rgba += 4) from += color(rgba);
-    }
+    for (; rgba != end; rgba += 4) from += color(rgba) * solid(rgba);
     return from;
   }
 
  private:
-  bool has_holes_;
   std::array<Eigen::Array4f, 256> red_, green_, blue_;
   std::array<float, 256> solid_;
 };
