@@ -3,7 +3,6 @@
 
 #include <sdf/sdf_config.h>
 #include <Eigen/Core>
-#include <memory>
 #include <optional>
 #include <sdf/Element.hh>
 #include <sdf/Error.hh>
@@ -12,7 +11,6 @@
 #include <sdf/Model.hh>
 #include <sdf/Pbr.hh>
 #include <sdf/Root.hh>
-#include <sdf/parser.hh>
 #include <string>
 
 #include "scene/sdf_pose.h"

@@ -28,9 +28,11 @@ sdf::ElementPtr withoutChildren(const sdf::Element& element) {
   made->SetName(element.GetName());
   made->SetRequired(element.GetRequired());
   made->SetCopyChildren(element.GetCopyChildren());
-  for (const sdf::ParamPtr& attribute : element.GetAttributes())
+  for (unsigned i = 0; i < element.GetAttributeCount(); ++i) {
+    const sdf::ParamPtr attribute = element.GetAttribute(i);
     made->AddAttribute(attribute->GetKey(), attribute->GetTypeName(), attribute->GetDefaultAsString(),
                        attribute->GetRequired());
+  }
   return made;
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <sdf/Exception.hh>
+#include <sdf/parser.hh>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
 #include "scene/sdf_console.h"
-#include "scene/sdf_library.h"
 #include "scene/sdf_schema.h"
 #include "scene/sdf_xml.h"
 
