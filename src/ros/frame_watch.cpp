@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <ros/this_node.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "sunlit/ros/topic_names.h"
@@ -17,8 +18,8 @@ std::string withoutSlash(const std::string& frame) {
 
 }  // namespace
 
-FrameWatch::FrameWatch(ros::NodeHandle node, std::map<std::string, std::string> parents, std::string advice)
-    : parents_(std::move(parents)), advice_(std::move(advice)) {
+FrameWatch::FrameWatch(ros::NodeHandle node, std::string frame, std::string parent, std::string advice)
+    : frame_(std::move(frame)), parent_(std::move(parent)), advice_(std::move(advice)) {
   constexpr std::uint32_t kQueueSize = 100;  // whoever sends a frame sends it again
   using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
   const boost::function<void(const Event&)> heard = [this](const Event& event) { listen(event); };
@@ -29,16 +30,17 @@ FrameWatch::FrameWatch(ros::NodeHandle node, std::map<std::string, std::string> 
 void FrameWatch::listen(const ros::MessageEvent<const tf2_msgs::TFMessage>& event) {
   const std::string& sender = event.getPublisherName();
   if (sender == ros::this_node::getName()) return;
-  for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
-    const auto own = parents_.find(withoutSlash(transform.child_frame_id));
-    if (own == parents_.end()) continue;
-    ROS_WARN(
-        "%s sends the frame %s below %s on TF, and so does this node, below %s: where it is changes with "
-        "who spoke last. %s",
-        sender.c_str(), own->first.c_str(), transform.header.frame_id.c_str(), own->second.c_str(),
-        advice_.c_str());
-    parents_.erase(own);
-  }
+  const auto& transforms = event.getMessage()->transforms;
+  const auto found = std::find_if(transforms.begin(), transforms.end(), [&](const auto& transform) {
+    return withoutSlash(transform.child_frame_id) == frame_;
+  });
+  if (found == transforms.end() || !moving_) return;
+  ROS_WARN(
+      "%s sends the frame %s below %s on TF, and so does this node, below %s: where it is changes with "
+      "who spoke last. %s",
+      sender.c_str(), frame_.c_str(), found->header.frame_id.c_str(), parent_.c_str(), advice_.c_str());
+  moving_.shutdown();
+  standing_.shutdown();
 }
 
 }  // namespace sunlit::ros_interface

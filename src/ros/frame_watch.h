@@ -5,7 +5,6 @@
 #include <ros/node_handle.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <map>
 #include <string>
 
 namespace sunlit::ros_interface {
@@ -13,17 +12,16 @@ namespace sunlit::ros_interface {
 /// A frame of two senders is now where the one says, now where the other does, and TF tells nobody.
 class FrameWatch {
  public:
-  /// Listens from now on, and warns of each frame once, with `advice`. `parents` has the frames that this
-  /// node sends, each with that which it sends it below.
-  FrameWatch(ros::NodeHandle node, std::map<std::string, std::string> parents, std::string advice);
+  /// Of the frame that this node sends below `parent`. Listens until someone else sends it, too, and then
+  /// warns of it, once, with `advice`.
+  FrameWatch(ros::NodeHandle node, std::string frame, std::string parent, std::string advice);
   FrameWatch(const FrameWatch&) = delete;
   FrameWatch& operator=(const FrameWatch&) = delete;
 
  private:
   void listen(const ros::MessageEvent<const tf2_msgs::TFMessage>& event);
 
-  std::map<std::string, std::string> parents_;  ///< of frames that nobody else has sent yet
-  std::string advice_;
+  const std::string frame_, parent_, advice_;
   ros::Subscriber moving_, standing_;
 };
 

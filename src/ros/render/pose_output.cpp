@@ -21,7 +21,7 @@ PoseOutput::PoseOutput(ros::NodeHandle node, ros::NodeHandle private_node, const
   // count.
   tf_ = HeardTopic::of<tf2_msgs::TFMessage>(node, topics::kTf, options.queue_size);
   optical_.emplace(options.frames, options.right).publish();
-  watch_.emplace(node, std::map<std::string, std::string>{{options.frames.camera, options.frames.map}},
+  watch_.emplace(node, options.frames.camera, options.frames.map,
                  "With publish_tf: false it is left to others; frames/camera calls it otherwise");
 }
 

@@ -170,17 +170,16 @@ class Gatherer {
     int lane;
   };
   void note(const SkyPatches::Ray& ray, const Cast& cast, std::uint32_t sample, Look* look) const {
-    std::uint32_t from = LightMesh::kNone;
     cast.hits.visit(cast.lane, [&](const HitPacket& hits, float share, PackedTint tint) {
-      from = sampleAt(scene_, samples_, {hits, cast.lane, ray.towards});
-      noteMet(ray, {hits.triangle[cast.lane], from, cast.weight * share, tint}, look);
+      const bool known = hasSampleAt(scene_, samples_, {hits, cast.lane, ray.towards});
+      noteMet(ray, {hits.triangle[cast.lane], known, cast.weight * share, tint}, look);
     });
     look->all += cast.weight;
     look->burial.add({cast.normal, ray.towards, cast.weight, cast.hits.ends, cast.lane}, geometry_, traits_);
+    if (ray.coarse == SkyPatches::Ray::kFineOnly) return;
     // A veil buries nothing, and what passes light on is one a ray.
-    if (!cast.hits.veils.empty())
-      from = sampleAt(scene_, samples_, {cast.hits.byChance(), cast.lane, ray.towards});
-    if (from == LightMesh::kNone || ray.coarse == SkyPatches::Ray::kFineOnly) return;
+    const std::uint32_t from = sampleAt(scene_, samples_, {cast.hits.byChance(), cast.lane, ray.towards});
+    if (from == LightMesh::kNone) return;
     const bool up = ray.patch != SkyPatches::kBelow;
     if (up) {
       look->coarse_blocked_up +=
@@ -194,7 +193,7 @@ class Gatherer {
 
   struct MetOnWay {
     std::uint32_t triangle;  ///< as HitPacket::triangle
-    std::uint32_t from;      ///< sample
+    bool known;              ///< whether it has samples
     float weight;
     PackedTint tint;  ///< by glass before it
   };
@@ -204,7 +203,7 @@ class Gatherer {
       look->open += met.tint.times(Eigen::Array3f::Constant(met.weight));
       return;
     }
-    if (met.from == LightMesh::kNone) {
+    if (!met.known) {
       look->inside += met.weight;
       return;
     }

@@ -169,7 +169,7 @@ void RoomBaker::dropHidden(const BakedRooms::Source& source, std::vector<BakedRo
     scene_.rays.cast(rays, &hits);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const bool free = hits.triangle[lane] == HitPacket::kNothing;
-      if (free || sampleAt(scene_, samples_, {hits, static_cast<int>(lane), away}) != LightMesh::kNone)
+      if (free || hasSampleAt(scene_, samples_, {hits, static_cast<int>(lane), away}))
         open.push_back((*points)[first + lane]);
     }
   }

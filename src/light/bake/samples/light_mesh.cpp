@@ -1,29 +1,34 @@
 #include "light/bake/samples/light_mesh.h"
 
+#include <tuple>
+
 namespace sunlit::light {
 
 LightMesh::Place LightMesh::locate(std::uint32_t root, std::array<float, 3> barycentric) const {
-  constexpr std::array<std::size_t, 3> kNext{1, 2, 0};
-  std::uint32_t at = root;
-  while (cells[at].inner()) {
-    const std::size_t k = cells[at].corner[1];
-    const float from = barycentric[k];
-    const float to = barycentric[kNext[k]];
-    const float apex = barycentric[kNext[kNext[k]]];
+  // In registers: an array that is asked for by `edge` is waited for at each step, as it was just stored.
+  auto [from, to, apex] = barycentric;
+  const Cell* cell = &cells[root];
+  while (cell->inner()) {
+    if (cell->edge() == 1) {
+      std::tie(from, to, apex) = std::make_tuple(to, apex, from);
+    } else if (cell->edge() == 2) {
+      std::tie(from, to, apex) = std::make_tuple(apex, from, to);
+    }
     // The children are (from, point, apex) and (point, to, apex).
     bool first;
-    if (cells[at].halved()) {  // most are: the same bits as below, in a fraction of the time
+    if (cell->halved()) {  // most are: the same bits as below, in a fraction of the time
       first = from >= to;
-      barycentric = {first ? from - to : from + from, first ? to + to : to - from, apex};
+      std::tie(from, to) =
+          first ? std::make_tuple(from - to, to + to) : std::make_tuple(from + from, to - from);
     } else {
-      const float before = cells[at].share(), after = 1.0f - before;
+      const float before = cell->share(), after = 1.0f - before;
       first = from * before >= to * after;
-      barycentric = first ? std::array<float, 3>{from - to * (after / before), to / before, apex}
-                          : std::array<float, 3>{from / after, to - from * (before / after), apex};
+      std::tie(from, to) = first ? std::make_tuple(from - to * (after / before), to / before)
+                                 : std::make_tuple(from / after, to - from * (before / after));
     }
-    at = cells[at].child() + (first ? 0u : 1u);
+    cell = &cells[cell->child() + (first ? 0u : 1u)];
   }
-  return {cells[at].corner, barycentric};
+  return {cell->corner, {from, to, apex}};
 }
 
 std::vector<std::uint32_t> LightMesh::usefulSamples(const std::vector<bool>& useless,

@@ -33,6 +33,7 @@ struct LightMesh {
     }
     bool inner() const { return (corner[0] & kInner) != 0; }
     std::uint32_t child() const { return corner[0] & ~kInner; }
+    std::uint32_t edge() const { return corner[1]; }
     bool halved() const { return corner[2] == 0; }
     float share() const {
       float share = 0.5f;

@@ -18,7 +18,7 @@ void visitLeaves(const LightMesh& mesh, std::uint32_t at, const Eigen::Matrix3f&
     visit(cell, corners);
     return;
   }
-  const auto k = static_cast<Eigen::Index>(cell.corner[1]);
+  const auto k = static_cast<Eigen::Index>(cell.edge());
   const Eigen::Vector3f from = corners.col(k), to = corners.col((k + 1) % 3), apex = corners.col((k + 2) % 3);
   const Eigen::Vector3f point = cell.point(from, to);
   Eigen::Matrix3f child;

@@ -38,8 +38,10 @@ struct LaneHit {
   int lane;
   const Eigen::Vector3f& towards;
 };
-/// The sample nearest to where a ray has met a triangle, or LightMesh::kNone for the inside of a body and for
-/// nothing.
+/// Whether a ray has met what has samples: not for the inside of a body, nor for nothing.
+bool hasSampleAt(const BakeScene& scene, const SceneSamples& samples, const LaneHit& hit);
+
+/// The sample nearest to where a ray has met a triangle; LightMesh::kNone where there is none.
 std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, const LaneHit& hit);
 
 SceneSamples sampleScene(const BakeScene& scene, const AreaLights& bright, const RefineLimits& limits,

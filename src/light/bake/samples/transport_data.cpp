@@ -67,7 +67,7 @@ const std::vector<Eigen::Vector3f>& TransportData::places(const Geometry& geomet
           continue;
         }
         // As locate() has it.
-        const std::size_t k = cell.corner[1];
+        const std::size_t k = cell.edge();
         const Eigen::Vector3f &from = part.corners[k], &to = part.corners[(k + 1) % 3],
                               &apex = part.corners[(k + 2) % 3];
         const Eigen::Vector3f point = cell.point(from, to);
