@@ -1,14 +1,19 @@
 # How every library, program and test of this package is made.
 
+# Nobody replaces a function of a library at run time: it calls its own, and inlines them.
+set(sunlit_own_calls -fno-semantic-interposition)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 11)
+  set(sunlit_own_calls)  # makes no SUNLIT_VECTOR_CLONES then of what other files call
+endif()
+
 # Flags that all our targets share.
 add_library(sunlit_flags INTERFACE)
 target_compile_options(sunlit_flags INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   # One rounding per operation, so that results do not depend on how a compiler fuses them.
   -ffp-contract=off
-  # Nobody replaces a function of a library at run time: it calls its own, and inlines them. Copies of inline functions belong to
-  # who makes them; those of tests, with fewer optimisations, serve no library.
-  -fno-semantic-interposition -fvisibility-inlines-hidden)
+  # Copies of inline functions belong to who makes them; those of tests, with fewer optimisations, serve no library.
+  ${sunlit_own_calls} -fvisibility-inlines-hidden)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
   # Nor on how Eigen does, which asks for the instruction by name where this says that there is one; nor on the width of its
   # vectors. What is parsed once would have to come before the header.

@@ -9,7 +9,7 @@ namespace sunlit {
 inline std::string oneLine(std::string text) {
   constexpr char kDelete = 0x7f;
   for (char& letter : text) {
-    if ((letter >= 0 && letter < ' ') || letter == kDelete) letter = ' ';
+    if (static_cast<unsigned char>(letter) < ' ' || letter == kDelete) letter = ' ';
   }
   return text;
 }
