@@ -143,8 +143,8 @@ void requireGltf2(const json& root, const std::string& file) {
   if (!root.contains("asset"))
     throw std::runtime_error(file + ": this is no glTF file: it has no \"asset\", which tells its version");
   const json& version = child(child(root, "asset"), "version");
-  if (!version.is_string()) return;  // Assimp says what it misses
-  const std::string text = version.get<std::string>();
+  if (!version.is_string() && !version.is_number()) return;  // Assimp says what it misses
+  const std::string text = version.is_string() ? version.get<std::string>() : version.dump();
   if (text.compare(0, 2, "2.") != 0 && text != "2")
     throw std::runtime_error(file + ": this is glTF " + (text.empty() ? "without a version" : text) +
                              ", and only 2.0 is read: convert it, by Blender or gltf-pipeline");

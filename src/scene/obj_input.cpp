@@ -103,11 +103,27 @@ std::vector<std::string> librariesIn(const std::string& names, const std::string
   return {names};
 }
 
-/// Vertices and faces as Assimp 5.2 reads them: it stops at comments behind faces, counts words of comments
-/// that begin as numbers do, does not count numbers that begin with a point, and wants two of `vt`. Each
-/// library on a line of its own.
+/// Corners of a face without their coordinates of textures.
+std::string withoutCoordinates(const std::string& line) {
+  std::string bare;
+  for (const std::string& word : wordsOfLine(line)) {
+    const std::size_t first = word.find('/'),
+                      second = first == std::string::npos ? first : word.find('/', first + 1);
+    bare += (bare.empty() ? "" : " ") + word.substr(0, first);
+    if (second != std::string::npos) bare += '/' + word.substr(second);
+  }
+  return bare;
+}
+
+/// Vertices and faces as Assimp 5.2 reads them: it wants `vt` where faces name some, stops at comments behind
+/// faces, counts words of comments that begin as numbers do, does not count numbers that begin with a point,
+/// and wants two of `vt`. Each library on a line of its own.
 std::string withPlainLines(const std::string& text, const std::string& file) {
   static const std::set<std::string> numbers = {"v", "vn", "vt"}, indices = {"f", "l", "p"};
+  bool has_coordinates = false;
+  forEachObjLine(text, [&](const std::string& line, std::size_t) {
+    has_coordinates = has_coordinates || !behindWord("vt", line).empty();
+  });
   std::string plain;
   std::string first;     // word of the line
   bool goes_on = false;  // in the next line
@@ -116,6 +132,7 @@ std::string withPlainLines(const std::string& text, const std::string& file) {
     const bool is_numbers = numbers.count(first) == 1, is_whole = !goes_on;
     std::string mended = is_numbers || indices.count(first) == 1 ? withoutComment(line) : line;
     if (is_numbers) mended = withLeadingZeros(mended);
+    if (!has_coordinates && indices.count(first) == 1) mended = withoutCoordinates(mended);
     const std::size_t last = mended.find_last_not_of(" \t");
     goes_on = last != std::string::npos && mended[last] == '\\';
     if (first == "vt" && is_whole && !goes_on && wordsOfLine(mended).size() == 2) mended += " 0";

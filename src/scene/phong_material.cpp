@@ -159,8 +159,9 @@ class PhongReader {
           "materials are more than half transparent; where they should not be, their files mean opacity by "
           "it",
           material_.name + " of " + context_.file);
-    const int opaque =
-        context_.builder.addMaterial(material_, AlphaRule::kFromTexture, NormalsRule::kMaybeHeights);
+    const bool asks = !pictureOf(source_, aiTextureType_OPACITY).empty();
+    const int opaque = context_.builder.addMaterial(
+        material_, asks ? AlphaRule::kFromTexture : AlphaRule::kNotAskedFor, NormalsRule::kMaybeHeights);
     const int material = context_.builder.veiled(opaque, opacity, SceneBuilder::Faces::kOne);
     const bool fades = context_.builder.material(material).alpha_mode != AlphaMode::kOpaque;
     return {material, coordinates_, isBare(source_, context_), fades};

@@ -1,6 +1,7 @@
 #include "scene/primitives.h"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -38,29 +39,49 @@ void addRectangle(Mesh& mesh, const Eigen::Vector3d& centre, const Eigen::Vector
 struct Ring {
   double radius, height;         ///< of its vertices, before scaling
   double normal_out, normal_up;  ///< their normal, before scaling
-  double texture_v;
+  double texture_u, texture_v;   ///< u after a whole turn
 };
 
-/// Joins `rings`, given from top to bottom, all around; x, y and z are scaled by `scale`.
-void addRevolution(Mesh& mesh, const std::vector<Ring>& rings, const Eigen::Vector3d& scale) {
+/// Unit vectors: from where rings begin, by way of what they go round their axis.
+struct Turning {
+  Eigen::Vector3d begin, quarter, axis;
+};
+const Turning kAroundZ{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+// As Gazebo's meshes have them.
+const Turning kCylinder{Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ()};
+const Turning kSphere{Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+
+/// A solid whose x, y and z are scaled by `scale` once it is turned.
+struct Revolution {
+  const Turning& turning;
+  Eigen::Vector3d scale;
+};
+
+/// Joins `rings`, given from the axis' end down, all around.
+void addRevolution(Mesh& mesh, const std::vector<Ring>& rings, const Revolution& of) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const auto& [begin, quarter, axis] = of.turning;
   for (const Ring& ring : rings) {
     for (int i = 0; i <= kSegments; ++i) {
       const double turn = static_cast<double>(i) / kSegments;
-      const double c = std::cos(2.0 * kPi * turn);
-      const double s = std::sin(2.0 * kPi * turn);
-      const Eigen::Vector3d position(ring.radius * c, ring.radius * s, ring.height);
-      const Eigen::Vector3d normal(ring.normal_out * c, ring.normal_out * s, ring.normal_up);
-      addVertex(mesh, position.cwiseProduct(scale), normal.cwiseQuotient(scale), {turn, ring.texture_v});
+      const Eigen::Vector3d out = std::cos(2.0 * kPi * turn) * begin + std::sin(2.0 * kPi * turn) * quarter;
+      const Eigen::Vector3d position = ring.radius * out + ring.height * axis;
+      const Eigen::Vector3d normal = ring.normal_out * out + ring.normal_up * axis;
+      addVertex(mesh, position.cwiseProduct(of.scale), normal.cwiseQuotient(of.scale),
+                {turn * ring.texture_u, ring.texture_v});
     }
   }
+  const auto addTriangle = [&, clockwise = begin.cross(quarter).dot(axis) < 0.0](
+                               std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh.triangles.push_back(clockwise ? std::array{a, c, b} : std::array{a, b, c});
+  };
   constexpr std::uint32_t kStride = kSegments + 1;
   for (std::uint32_t ring = 0; ring + 1 < rings.size(); ++ring) {
     for (std::uint32_t i = 0; i < kSegments; ++i) {
       const std::uint32_t upper = first + ring * kStride + i;
       const std::uint32_t lower = upper + kStride;
-      if (rings[ring].radius > 0.0) mesh.triangles.push_back({upper, lower, upper + 1});
-      if (rings[ring + 1].radius > 0.0) mesh.triangles.push_back({upper + 1, lower, lower + 1});
+      if (rings[ring].radius > 0.0) addTriangle(upper, lower, upper + 1);
+      if (rings[ring + 1].radius > 0.0) addTriangle(upper + 1, lower, lower + 1);
     }
   }
 }
@@ -72,7 +93,7 @@ void appendSphereRings(std::vector<Ring>& rings, double begin, double end, doubl
     const double polar = begin + (end - begin) * i / steps;
     const bool pole = std::abs(std::sin(polar)) < 1e-9;
     const double out = pole ? 0.0 : std::sin(polar);
-    rings.push_back({out, std::cos(polar) + lift, out, std::cos(polar), polar / kPi});
+    rings.push_back({out, std::cos(polar) + lift, out, std::cos(polar), 1.0, polar / kPi});
   }
 }
 
@@ -86,8 +107,8 @@ Mesh makeBox(const Eigen::Vector3d& size) {
   addRectangle(mesh, -x, -y, z);
   addRectangle(mesh, y, -x, z);
   addRectangle(mesh, -y, x, z);
-  addRectangle(mesh, z, x, y);
-  addRectangle(mesh, -z, x, -y);
+  addRectangle(mesh, z, -y, x);
+  addRectangle(mesh, -z, -y, -x);
   return mesh;
 }
 
@@ -95,24 +116,24 @@ Mesh makeEllipsoid(const Eigen::Vector3d& radii) {
   Mesh mesh;
   std::vector<Ring> rings;
   appendSphereRings(rings, 0.0, kPi, 0.0);
-  addRevolution(mesh, rings, radii);
+  addRevolution(mesh, rings, {kSphere, radii});
   return mesh;
 }
 
 Mesh makeCylinder(double radius, double length) {
   Mesh mesh;
-  const Eigen::Vector3d scale(radius, radius, 0.5 * length);
-  addRevolution(mesh, {{0, 1, 0, 1, 0}, {1, 1, 0, 1, 1}}, scale);
-  addRevolution(mesh, {{1, 1, 1, 0, 0}, {1, -1, 1, 0, 1}}, scale);
-  addRevolution(mesh, {{1, -1, 0, -1, 0}, {0, -1, 0, -1, 1}}, scale);
+  const Revolution whole{kCylinder, {radius, radius, 0.5 * length}};
+  addRevolution(mesh, {{0, 1, 0, 1, 0, 0}, {1, 1, 0, 1, 1, 1}}, whole);
+  addRevolution(mesh, {{1, 1, 1, 0, 1, 1}, {1, -1, 1, 0, 1, 0}}, whole);
+  addRevolution(mesh, {{1, -1, 0, -1, 1, 0}, {0, -1, 0, -1, 0, 0}}, whole);
   return mesh;
 }
 
 Mesh makeCone(double radius, double length) {
   Mesh mesh;
-  const Eigen::Vector3d scale(radius, radius, 0.5 * length);
-  addRevolution(mesh, {{0, 1, 2, 1, 0}, {1, -1, 2, 1, 1}}, scale);
-  addRevolution(mesh, {{1, -1, 0, -1, 0}, {0, -1, 0, -1, 1}}, scale);
+  const Revolution whole{kCylinder, {radius, radius, 0.5 * length}};
+  addRevolution(mesh, {{0, 1, 2, 1, 1, 1}, {1, -1, 2, 1, 1, 0}}, whole);
+  addRevolution(mesh, {{1, -1, 0, -1, 1, 0}, {0, -1, 0, -1, 0, 0}}, whole);
   return mesh;
 }
 
@@ -122,7 +143,7 @@ Mesh makeCapsule(double radius, double length) {
   std::vector<Ring> rings;
   appendSphereRings(rings, 0.0, 0.5 * kPi, lift);
   appendSphereRings(rings, 0.5 * kPi, kPi, -lift);
-  addRevolution(mesh, rings, Eigen::Vector3d::Constant(radius));
+  addRevolution(mesh, rings, {kAroundZ, Eigen::Vector3d::Constant(radius)});
   return mesh;
 }
 

@@ -1,5 +1,6 @@
-/// Simple solids as meshes: centred on the origin, outward normals, texture coordinates that cover each face
-/// once.
+/// Simple solids as meshes: centred on the origin, outward normals, textures lying as in Gazebo, whose worlds
+/// and models they are drawn for (gz-common's MeshManager): upright on the sides of boxes, their top to +x on
+/// top and to −x below; turned by 180° around cylinders, from +y on; on spheres from pole to pole along y.
 #pragma once
 
 #include <Eigen/Core>

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/texture_alpha.h"
 #include "scene/triangle_budget.h"
 #include "sunlit/scene/scene.h"
 
@@ -21,6 +22,8 @@ enum class AlphaRule {
   kDeclared,     ///< the file says so
   kFromTexture,  ///< the file's format cannot say: cut out if the texture has a considerable transparent
                  ///< share
+  kNotAskedFor,  ///< the format could, and the file does not: cut out where nothing is painted beneath, else
+                 ///< opaque, and named
 };
 
 /// How a material's normal map is taken.
@@ -142,6 +145,7 @@ class SceneBuilder {
   void decodeTextures();
   void forgetTexture(int texture);
   void settleAlpha();
+  void settleByTexture(AlphaRule rule, AlphaMeans means, Material* material);
   void dropHeights();
   void paintByMeans();
   bool hasMaps(int material);

@@ -22,19 +22,28 @@ void SceneBuilder::settleAlpha() {
       const bool whole =
           !textured || isWhole(scene_.textures[static_cast<std::size_t>(material.base_texture)]);
       if (whole && material.alpha >= 1.0f) material.alpha_mode = AlphaMode::kOpaque;
-    } else if (alpha_rules_[i] == AlphaRule::kFromTexture && textured) {
-      const auto texture = static_cast<std::size_t>(material.base_texture);
-      const std::string name = material.name + ": " + scene_.textures[texture].name + ", whose alpha is ";
-      if (means[texture] == AlphaMeans::kCutOut) {
-        material.alpha_mode = AlphaMode::kMask;
-      } else if (means[texture] == AlphaMeans::kVeil) {
-        material.alpha_mode = AlphaMode::kBlend;
-        warn(kNotRendered,
-             name + "below one half all over: what lies behind shows through instead of nothing");
-      } else if (means[texture] == AlphaMeans::kAccident) {
-        warn(kNotRendered, name + "0 all over: drawn as opaque");
-      }
+    } else if (alpha_rules_[i] != AlphaRule::kDeclared && textured) {
+      settleByTexture(alpha_rules_[i], means[static_cast<std::size_t>(material.base_texture)], &material);
     }
+  }
+}
+
+void SceneBuilder::settleByTexture(AlphaRule rule, AlphaMeans means, Material* material) {
+  if (means == AlphaMeans::kNothing) return;
+  const std::string name =
+      material->name + ": " + scene_.textures[static_cast<std::size_t>(material->base_texture)].name;
+  const bool is_asked_for = rule != AlphaRule::kNotAskedFor;
+  if (means == AlphaMeans::kCutOut || (means == AlphaMeans::kPainted && is_asked_for)) {
+    material->alpha_mode = AlphaMode::kMask;
+  } else if (!is_asked_for) {
+    warn(kNotRendered, name + ", of whose alpha the file says nothing: drawn as opaque");
+  } else if (means == AlphaMeans::kVeil) {
+    material->alpha_mode = AlphaMode::kBlend;
+    warn(
+        kNotRendered,
+        name + ", whose alpha is below one half all over: what lies behind shows through instead of nothing");
+  } else if (means == AlphaMeans::kAccident) {
+    warn(kNotRendered, name + ", whose alpha is 0 all over: drawn as opaque");
   }
 }
 

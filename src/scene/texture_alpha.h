@@ -1,10 +1,6 @@
 /// What alpha of textures stands for.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::scene {
@@ -15,21 +11,13 @@ namespace sunlit::scene {
 constexpr double kTransparentShare = 0.01;
 
 /// What alpha of a texture stands for, where its file does not say.
-enum class AlphaMeans { kNothing, kCutOut, kVeil, kAccident };
-inline AlphaMeans meaningOf(const Texture& texture) {
-  const std::size_t texels = texture.rgba.size() / 4;
-  std::size_t transparent = 0;
-  std::uint8_t most = 0;
-  for (std::size_t i = 0; i < texels; ++i) {
-    const std::uint8_t alpha = texture.rgba[4 * i + 3];
-    transparent += alpha < 128 ? 1 : 0;
-    most = std::max(most, alpha);
-  }
-  if (!(static_cast<double>(transparent) > kTransparentShare * static_cast<double>(texels)))
-    return AlphaMeans::kNothing;
-  // Nobody paints what is nowhere to be seen: tinted glass, or an unused channel.
-  if (most < 128) return most > 0 ? AlphaMeans::kVeil : AlphaMeans::kAccident;
-  return AlphaMeans::kCutOut;
-}
+enum class AlphaMeans {
+  kNothing,
+  kCutOut,   ///< of something on a blank ground
+  kPainted,  ///< as a cut-out, but what it would hide is painted as well
+  kVeil,     ///< below one half all over
+  kAccident  ///< 0 all over
+};
+AlphaMeans meaningOf(const Texture& texture);
 
 }  // namespace sunlit::scene

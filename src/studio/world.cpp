@@ -50,8 +50,9 @@ std::string metresOf(double length_m) {
 
 std::string sizeOf(const scene::Shape& shape) {
   const Eigen::AlignedBox3f box = boxAround(shape);
+  const Eigen::Vector3f sizes = box.sizes();
   std::string extents;
-  for (const float extent : box.sizes())
+  for (const float extent : sizes)
     extents += (extents.empty() ? " in " : " x ") + metresOf(static_cast<double>(extent));
   return countOf(shape.triangles.size()) + (box.isEmpty() ? "" : extents + " m");
 }

@@ -73,7 +73,10 @@ Robot parseUrdf(const std::string& text, const std::string& origin, const Search
   LinkMeshes meshes(origin);
   UrdfVisuals visuals(origin, finder, meshes.builder());
   std::map<std::string, GazeboMaterial> of_gazebo = gazeboMaterialsOfLinks(text);
-  for (const std::string& oddity : urdf_text.oddities()) meshes.builder().warn(origin + ": " + oddity);
+  for (const std::string& oddity : urdf_text.oddities()) {
+    const bool told = oddity.find("' undefined.") != std::string::npos;  // of materials, with their visuals
+    if (!told) meshes.builder().warn("warnings of urdfdom", oddity);
+  }
   std::map<std::string, std::vector<Lamp>> lamps = urdfLamps(text, meshes.builder());
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     const std::string& name = robot.links[i].name;

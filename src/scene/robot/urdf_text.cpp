@@ -31,13 +31,23 @@ class Listener : public console_bridge::OutputHandler {
   std::vector<std::string> errors, warnings;
 };
 
+/// What nobody sees is not to stop anything: urdfdom refuses a link for an inertia that lacks a number, and
+/// for shapes of collisions that other programs know.
+void dropUnseen(TiXmlElement* robot) {
+  for (TiXmlElement* link = robot->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    for (const char* unseen : {"inertial", "collision"})
+      while (TiXmlElement* element = link->FirstChildElement(unseen)) link->RemoveChild(element);
+  }
+}
+
 }  // namespace
 
 UrdfText::UrdfText(const std::string& text, const std::string& origin) : origin_(origin) {
-  readLines(text);
+  const std::string seen = read(text);
   Listener listener;
   try {
-    model_ = urdf::parseURDF(text);
+    model_ = urdf::parseURDF(seen);
   } catch (const std::exception& error) {  // of a number, say
     listener.errors.emplace_back(error.what());
   }
@@ -46,7 +56,7 @@ UrdfText::UrdfText(const std::string& text, const std::string& origin) : origin_
   oddities_ = listener.warnings;
 }
 
-void UrdfText::readLines(const std::string& text) {
+std::string UrdfText::read(const std::string& text) {
   // TinyXML, which urdfdom uses, calls itself for each level, until the stack ends.
   tinyxml2::XMLDocument levels;
   if (levels.Parse(text.data(), text.size()) == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
@@ -59,7 +69,7 @@ void UrdfText::readLines(const std::string& text) {
     throw std::runtime_error(origin_ + ":" + std::to_string(document.ErrorRow()) +
                              ": the XML is broken here (" + document.ErrorDesc() + ")");
   }
-  const TiXmlElement* robot = document.FirstChildElement("robot");
+  TiXmlElement* const robot = document.FirstChildElement("robot");
   if (robot == nullptr) throw std::runtime_error(origin_ + ":1: there is no <robot> element in this text");
   for (const TiXmlElement* element = robot->FirstChildElement(); element != nullptr;
        element = element->NextSiblingElement()) {
@@ -73,6 +83,10 @@ void UrdfText::readLines(const std::string& text) {
     lines_.emplace(std::make_pair(kind, std::string(name)), element->Row());
     if (kind == "link") links_.emplace_back(name);
   }
+  dropUnseen(robot);
+  TiXmlPrinter printer;
+  document.Accept(&printer);
+  return printer.Str();
 }
 
 std::string UrdfText::place(const std::string& kind, const std::string& name) const {

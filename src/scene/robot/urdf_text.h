@@ -17,7 +17,7 @@ class UrdfText {
   UrdfText(const std::string& text, const std::string& origin);
 
   const urdf::ModelInterface& model() const { return *model_; }
-  /// What urdfdom found odd, but passed.
+  /// What urdfdom found odd, but passed, of what can be seen.
   const std::vector<std::string>& oddities() const { return oddities_; }
   /// Names of the links in the order of the text.
   const std::vector<std::string>& links() const { return links_; }
@@ -25,7 +25,8 @@ class UrdfText {
   std::string place(const std::string& kind, const std::string& name) const;
 
  private:
-  void readLines(const std::string& text);
+  /// Notes links and joints; returns what is seen of the text.
+  std::string read(const std::string& text);
   [[noreturn]] void fail(const std::vector<std::string>& complaints) const;
 
   std::string origin_;

@@ -58,6 +58,14 @@ std::string collada(const std::string& asset, const std::string& image = "",
          "<scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 }
 
+/// The same where alpha of its picture is to be seen.
+std::string seenThrough(std::string collada) {
+  const std::string end = "</diffuse>";
+  return collada.insert(
+      collada.find(end) + end.size(),
+      "<transparent opaque='A_ONE'><texture texture='picture-sampler' texcoord='uv'/></transparent>");
+}
+
 const std::string kCentimetresZUp = "<unit meter='0.01' name='centimeter'/><up_axis>Z_UP</up_axis>";
 
 /// A PNG of one colour.
@@ -218,7 +226,7 @@ TEST_F(MeshFile, ATextureWithHolesIsCutOut) {
 }
 
 TEST_F(MeshFile, ATextureThatIsNowhereSolidIsNoCutOut) {
-  const std::string mesh = write("t.dae", collada(kCentimetresZUp, "paint.png"));
+  const std::string mesh = write("t.dae", seenThrough(collada(kCentimetresZUp, "paint.png")));
   const auto loaded = [&](std::uint8_t alpha) {
     image::Rgba8Image picture(4, 4);
     for (std::size_t i = 0; i < picture.data.size(); ++i) picture.data[i] = i % 4 == 3 ? alpha : 200;
@@ -232,6 +240,28 @@ TEST_F(MeshFile, ATextureThatIsNowhereSolidIsNoCutOut) {
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_NE(scene.warnings[0].find("paint.png, whose alpha is "), std::string::npos) << scene.warnings[0];
   }
+}
+
+TEST_F(MeshFile, WhatIsPaintedBelowAlphaIsOpaqueUnlessTheFileAsksForIt) {
+  image::Rgba8Image picture(4, 4);
+  for (std::size_t i = 0; i < picture.data.size(); ++i)
+    picture.data[i] = i % 4 == 3 ? (i < 32 ? 0 : 255) : static_cast<std::uint8_t>(i);
+  write("paint.png", image::encodePng(picture));
+  write("m.mtl", "newmtl a\nmap_Kd paint.png\n");
+  write("t.obj",
+        "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  write("t.dae", collada(kCentimetresZUp, "paint.png"));
+  for (const char* name : {"t.obj", "t.dae"}) {
+    const Scene scene = load(pathOf(name), {});
+    EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::kOpaque) << name;
+    ASSERT_EQ(scene.warnings.size(), 1u) << name;
+    EXPECT_NE(scene.warnings[0].find("paint.png, of whose alpha the file says nothing: drawn as opaque"),
+              std::string::npos)
+        << scene.warnings[0];
+  }
+  const Scene asked = load(write("t.dae", seenThrough(collada(kCentimetresZUp, "paint.png"))), {});
+  EXPECT_EQ(asked.materials[0].alpha_mode, AlphaMode::kMask);
+  EXPECT_TRUE(asked.warnings.empty());
 }
 
 TEST_F(MeshFile, ABrokenTextureIsANamedWarningAndANeutralMaterial) {

@@ -44,6 +44,13 @@ TEST_F(ObjLines, TextureCoordinatesMayBeOneNumber) {
   EXPECT_EQ(mesh.texture_coordinates[1], Eigen::Vector2f(0.5f, 1.0f));
 }
 
+TEST_F(ObjLines, FacesMayNameTextureCoordinatesThatAreNowhere) {
+  const Mesh mesh = meshOf("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0.6 0 0.8\nf 1/1/1 2/2/1 3/3/1\nf 3/1 2/1 1/1\n");
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_TRUE(mesh.texture_coordinates.empty());
+  EXPECT_FLOAT_EQ(mesh.normals.at(mesh.triangles[0][0]).x(), 0.6f);
+}
+
 TEST_F(ObjLines, CommentsMayStandBehindThem) {
   const std::string quad =
       "v 0 0 0 # 1 2 3\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0 # 4\nvn 0 0 1 # 5\n"

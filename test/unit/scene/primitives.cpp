@@ -32,6 +32,41 @@ TEST(Primitives, BoxHasSixFacesLookingOutwards) {
   expectOutward(box);
 }
 
+/// What of a texture is at a corner of a mesh, on the side with that normal.
+Eigen::Vector2f textureAt(const Mesh& mesh, const Eigen::Vector3f& corner, const Eigen::Vector3f& normal) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if ((mesh.positions[i] - corner).norm() < 1e-5f && (mesh.normals[i] - normal).norm() < 1e-5f)
+      return mesh.texture_coordinates[i];
+  return {-1.0f, -1.0f};
+}
+
+/// What of a texture lies at the corner that is seen at its top left, and top right.
+void expectTop(const Mesh& mesh, const Eigen::Vector3f& normal, const Eigen::Vector3f& left,
+               const Eigen::Vector3f& right) {
+  EXPECT_EQ(textureAt(mesh, left, normal), Eigen::Vector2f(0.0f, 0.0f)) << normal.transpose();
+  EXPECT_EQ(textureAt(mesh, right, normal), Eigen::Vector2f(1.0f, 0.0f)) << normal.transpose();
+}
+
+TEST(Primitives, TexturesLieAsInGazebo) {
+  // By the vertices that gz-common's MeshManager writes.
+  const Mesh box = makeBox({2.0, 2.0, 2.0});
+  expectTop(box, {0, -1, 0}, {-1, -1, 1}, {1, -1, 1});
+  expectTop(box, {0, 1, 0}, {1, 1, 1}, {-1, 1, 1});
+  expectTop(box, {-1, 0, 0}, {-1, 1, 1}, {-1, -1, 1});
+  expectTop(box, {1, 0, 0}, {1, -1, 1}, {1, 1, 1});
+  expectTop(box, {0, 0, 1}, {1, 1, 1}, {1, -1, 1});
+  expectTop(box, {0, 0, -1}, {-1, 1, -1}, {-1, -1, -1});
+  const Mesh cylinder = makeCylinder(1.0, 2.0);
+  EXPECT_EQ(textureAt(cylinder, {0, 1, -1}, {0, 1, 0}), Eigen::Vector2f(0.0f, 0.0f));
+  EXPECT_EQ(textureAt(cylinder, {1, 0, 1}, {1, 0, 0}), Eigen::Vector2f(0.25f, 1.0f));
+  EXPECT_EQ(textureAt(cylinder, {1, 0, 1}, {0, 0, 1}), Eigen::Vector2f(0.25f, 1.0f));
+  EXPECT_EQ(textureAt(cylinder, {0, 0, 1}, {0, 0, 1}), Eigen::Vector2f(0.0f, 0.0f));
+  const Mesh sphere = makeEllipsoid({1.0, 1.0, 1.0});
+  EXPECT_EQ(textureAt(sphere, {0, 1, 0}, {0, 1, 0}), Eigen::Vector2f(0.0f, 0.0f));
+  EXPECT_EQ(textureAt(sphere, {0, 0, 1}, {0, 0, 1}), Eigen::Vector2f(0.0f, 0.5f));
+  EXPECT_EQ(textureAt(sphere, {1, 0, 0}, {1, 0, 0}), Eigen::Vector2f(0.25f, 0.5f));
+}
+
 TEST(Primitives, CylinderStandsOnZ) {
   const Mesh cylinder = makeCylinder(0.5, 4.0);
   EXPECT_NEAR(volumeOf(cylinder), kPi * 0.25 * 4.0, kFacets * kPi);

@@ -129,6 +129,21 @@ TEST(Urdf, ShapesStandInTheFrameOfTheirLink) {
   EXPECT_LT(bounds(bare, "base").max().norm(), 4.0f);
 }
 
+TEST(Urdf, WhatNobodySeesStopsNothing) {
+  const std::string bare = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>";
+  const std::string capsule = "<collision><geometry><capsule radius='1' length='2'/></geometry></collision>";
+  const Robot robot = parsed(link("base", bare + visual(kBox) + capsule + capsule));
+  EXPECT_LT(bounds(robot, "base").max().norm(), 4.0f);
+  EXPECT_TRUE(robot.warnings.empty());
+}
+
+TEST(Urdf, MaterialsThatAreNowhereAreOneLine) {
+  const std::string grey = visual(kBox, "<material name='grey'/>");
+  const Robot robot = parsed(link("base", grey) + link("a", grey) + joint("j", "fixed", "a", ""));
+  ASSERT_EQ(robot.warnings.size(), 1u);
+  EXPECT_EQ(robot.warnings[0].find("2 materials do not exist"), 0u) << robot.warnings[0];
+}
+
 class UrdfFile : public SceneFiles {
  protected:
   Robot loaded(const std::string& content, const SearchPath& search_path = {}) const {
