@@ -220,7 +220,7 @@ def heat_map(atlas, method, metric):
             title += f"; outlined: at least {100 * USABLE_SHARE:.0f} %"
         _finish_matrix(axis, atlas.conditions)
         bar.grid(False)
-        figure.colorbar(picture, cax=bar, extend="min" if low is None and np.nanmin(values) < norm.vmin else "neither")
+        figure.colorbar(picture, cax=bar, extend="min" if low is None and (values < norm.vmin).any() else "neither")
         bar.set_ylabel(unit)
         if column == "median_error_m":
             bar.yaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))

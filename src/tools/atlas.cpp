@@ -103,6 +103,7 @@ class Atlas {
     StageProgress progress("observing " + std::to_string(poses) + " poses", poses);
     for (const ObserveUnit* unit : wanted)
       observeUnit(options_, *unit, camera_.get(), [&] { progress.step(); });
+    camera_->blindPoses().tell();
   }
 
   void compare() {

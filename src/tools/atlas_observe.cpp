@@ -64,6 +64,7 @@ evaluate::AtlasView AtlasCamera::viewFrom(const Eigen::Isometry3d& map_from_came
                                           const image::PictureName& place,
                                           const std::vector<std::size_t>& conditions) {
   studio_.look(map_from_camera);
+  blind_poses_.check(studio_, place.index);
   evaluate::AtlasView view;
   view.pose = place.index;
   view.camera = studio_.camera();

@@ -10,6 +10,7 @@
 #include "sunlit/studio/studio.h"
 #include "tools/atlas_folder.h"
 #include "tools/atlas_options.h"
+#include "tools/blind_poses.h"
 
 namespace sunlit::tools {
 
@@ -26,6 +27,8 @@ class AtlasCamera {
   void writeLights(const std::string& file) const;
 
   std::string fingerprint() const { return light::fingerprint(studio_.world()); }
+  /// Of all that were looked from.
+  const BlindPoses& blindPoses() const { return blind_poses_; }
 
  private:
   /// `place` is without a series: that is the light's.
@@ -36,6 +39,7 @@ class AtlasCamera {
   studio::Studio studio_;
   std::vector<light::Illumination> lights_;  ///< of each condition, as the lines
   std::vector<std::string> lines_;
+  BlindPoses blind_poses_;
 };
 
 /// Called behind each pose.

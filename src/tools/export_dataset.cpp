@@ -14,6 +14,7 @@
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
+#include "tools/blind_poses.h"
 #include "tools/export_dataset_options.h"
 #include "tools/output_folder.h"
 #include "tools/recipe.h"
@@ -83,6 +84,7 @@ class Camera {
   /// Returns how many pictures it took: of those hours that do not have the frame.
   int take(const DataSetFrame& frame, const Motion& motion, std::vector<Hour>* hours) {
     studio_.look(frame.map_from_camera, {}, motion);
+    blind_poses_.check(studio_, frame.number);
     const image::DepthImage depth = studio_.depth();
     int taken = 0;
     for (std::size_t i = 0; i < hours->size(); ++i) {
@@ -99,6 +101,7 @@ class Camera {
   }
 
   std::string fingerprint() const { return light::fingerprint(studio_.world()); }
+  const BlindPoses& blindPoses() const { return blind_poses_; }
 
  private:
   /// Of hour number `i`; only clouds that drift know how long after the first pose it is.
@@ -115,6 +118,7 @@ class Camera {
   studio::Studio studio_;
   studio::Sky sky_;
   std::vector<std::optional<light::Illumination>> lights_;  ///< of each hour, once it was needed
+  BlindPoses blind_poses_;
 };
 
 /// Numbers of those frames that an hour lacks.
@@ -148,6 +152,7 @@ void makePictures(const ExportOptions& options, const FolderRecipe& recipe, std:
                 textOfDuration(left_s).c_str());
     std::fflush(stdout);
   }
+  camera->blindPoses().tell();
 }
 
 /// What a person must know of a part before using it.

@@ -110,9 +110,11 @@ namespace {
 
 void tellOfTimezone(const studio::CommandLine& line, const PlaceOptions& place) {
   constexpr double kFar = 1.5, kHoursPerDay = 24.0, kDegreesPerHour = 15.0;
+  constexpr double kPolar_deg = 89.0;  // the sun stands about as high all day
   const double late = std::remainder(place.date.timezone - place.site.longitude.deg() / kDegreesPerHour,
                                      kHoursPerDay);  // the sun's noon, after 12:00
-  if (line.has("--timezone") || std::abs(late) <= kFar) return;
+  const bool is_polar = std::abs(place.site.latitude.deg()) > kPolar_deg;
+  if (line.has("--timezone") || is_polar || std::abs(late) <= kFar) return;
   const long quarters = std::lround((12.0 + late) * 4.0) % 96;  // no finer: the sun is up to 17 minutes late
   char text[128];
   std::snprintf(

@@ -7,6 +7,7 @@
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
+#include "tools/blind_poses.h"
 #include "tools/snapshot_options.h"
 #include "tools/terminal.h"
 
@@ -29,9 +30,7 @@ void takeSnapshot(const SnapshotOptions& options) {
   const studio::Developed developed = studio.photograph(studio.illumination(day), {});
   image::writePng(options.output, developed.picture);
   if (!options.depth_output.empty()) image::writePfm(options.depth_output, studio.depth());
-  if (!studio.seesAnything())
-    std::fprintf(stderr, "warning: %s\n", studio.whySeesNothing().c_str());
-  else if (image::isBlack(developed.picture))
+  if (!warnIfBlind(studio) && image::isBlack(developed.picture))
     std::fprintf(stderr, "warning: the picture is black all over: %s\n", image::kWhyBlack);
   const std::string eclipse =
       options.hour ? textOfEclipse(bodiesOf(options.place, *options.hour)) : std::string();

@@ -13,6 +13,7 @@
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
+#include "tools/blind_poses.h"
 #include "tools/frame_folder.h"
 #include "tools/place_arguments.h"
 #include "tools/terminal.h"
@@ -52,6 +53,7 @@ class Camera {
         studio_(options.view.studio, std::nullopt, onTerminal()),
         sky_(skyOver(studio_, options.place)) {
     studio_.look(options.view.placeIn(studio_), {}, options.view.motion);
+    warnIfBlind(studio_);
   }
 
   image::Rgb8Image take(int frame) {

@@ -338,6 +338,24 @@ class CommandLines(unittest.TestCase):
         self.assertRegex(done.stdout, r"nothing.png: \d+ triangles in 400 x 400 x [0-9.]+ m, EV100")
         self.assertIn("warning: nothing of the world is in view, which reaches from ", done.stderr)
 
+    def test_pictures_of_nothing_are_told_of_and_counted(self):
+        camera = ["--world", WORLD, "--bounced", "off", "--size", "160x120", "--supersampling", "1"]
+        nothing = "nothing of the world is in view, which reaches from "
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "away.csv")
+            path.write_text("0,-2\n900,-2\n", encoding="utf-8")
+            drive = ["--path", str(path), "--spacing", "400", *camera]
+            done = run("timelapse", "--out", folder + "/day", *camera, "--pose", "5000,0,1", "--from", "12", "--frames", "1")
+            self.assertRegex(done.stderr, "^warning: " + nothing + ".*\n$")
+            done = run("export_dataset", "--format", "tum", folder + "/set", "--hours", "12", *drive)
+            self.assertEqual(done.returncode, 0)
+            self.assertRegex(done.stderr, f"^warning: from pose 1 {nothing}.*\nwarning: 2 poses see nothing of the world, "
+                                          "from number 1 to 2\n$")
+            done = run("atlas", "--out", folder + "/atlas", "--hours", "12", "--detectors", "orb", *drive)
+            self.assertEqual(done.returncode, 0)
+            for told in (f"warning: from pose 1 {nothing}", "warning: 2 poses see nothing of the world, from number 1 to 2\n"):
+                self.assertEqual(done.stderr.count(told), 1, done.stderr)
+
     def test_hours_of_a_time_zone_that_nobody_gave_are_told_of_where_noon_is_elsewhere(self):
         told = "warning: hours are of UTC+3; the sun is highest there at about 20:00: --timezone gives another zone\n"
         with tempfile.TemporaryDirectory() as folder:
@@ -345,7 +363,8 @@ class CommandLines(unittest.TestCase):
             beside = {"snapshot": ["--out", folder + "/it.png", *clock, "--time", "12:00"],
                       "timelapse": ["--out", folder + "/day", *clock, "--from", "12", "--frames", "1"]}
             for program, arguments in beside.items():
-                for place, said in ((["--site", "40.7,-74"], told), (["--site", "40.7,-74", "--timezone", "3"], ""), ([], "")):
+                for place, said in ((["--site", "40.7,-74"], told), (["--site", "40.7,-74", "--timezone", "3"], ""),
+                                    (["--site", "90,0"], ""), ([], "")):
                     done = run(program, *arguments, *place)
                     self.assertEqual((done.returncode, done.stderr), (0, said))
                     shutil.rmtree(folder + "/day", ignore_errors=True)

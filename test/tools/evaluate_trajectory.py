@@ -118,7 +118,8 @@ class EvaluateTrajectory(unittest.TestCase):
                 (self.write("two.txt", tum(bend(50)[:2])), ["--align", "sim3"], "needs 3 pairs of poses, but has 2"),
                 (self.truth, ["--align", "best"], "--align is \"best\", but must be one of none, se3, sim3, yaw"),
                 (self.truth, ["--max-difference", "-1"], "--max-difference is -1, but must be from 0 to 1000000 s"),
-                (self.truth, ["--delta", "1m,2km"], "delta is \"2km\", but must be metres")):
+                (self.truth, ["--delta", "1m,2km"], "delta is \"2km\", but must be metres"),
+                (self.truth, ["--delta", "1m,5m,1m"], "delta is 1m,5m,1m, but must be each once")):
             done = self.evaluate(estimate, *more)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
             self.assertTrue(done.stderr.startswith("evaluate_trajectory: "), done.stderr)

@@ -400,6 +400,31 @@ class LocaliseBags(unittest.TestCase):
         self.assertIn("4 images could not be used", done.stderr)
         self.assertIn("h12 at 101.000000000: no camera/depth", done.stderr)
 
+    def test_a_bag_without_a_topic_says_which_could_take_its_place(self):
+        _, dusk = self.bags()
+        for lacks, others, told in (
+                ("depth/image_raw", {"/rs/depth": Image(), "/camera/depth/image_raw/compressedDepth": CompressedImage()},
+                 "the bag holds no /camera/depth/image_raw, see --depth; /camera/depth/image_raw/compressedDepth is not read: "
+                 "rosrun image_transport republish compressedDepth makes it raw; of this kind it holds /rs/depth\n"),
+                ("pose", {"/tf/optical": TransformStamped()},
+                 "the bag holds no /camera/pose, see --poses; of this kind it holds /tf/optical\n"),
+                ("camera_info", {}, "the bag holds no /h12/camera/camera_info, see --camera-info\n")):
+            noon = self.write("noon.bag", "h12/", [0.0, 1.0], without={(lacks, k) for k in range(2)})
+            with rosbag.Bag(noon, "a") as bag:
+                for topic, one in others.items():
+                    bag.write(topic, one, rospy.Time(101))
+            done = run("evaluate_bags", "--out", self.path("out"), "--map", noon, "--query", dusk, "--detectors", "sift")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(told, done.stderr)
+
+    def test_an_output_that_is_a_file_is_refused_before_the_work(self):
+        noon, dusk = self.bags()
+        file = pathlib.Path(self.path("out"))
+        file.write_text("mine", encoding="utf-8")
+        for drives in (["--map", noon, "--query", dusk], ["--odometry", dusk]):
+            self.assertRegex(self.refused(*drives), "out: is no folder that can be written: Not a directory\n$")
+        self.assertEqual(file.read_text(encoding="utf-8"), "mine")
+
     def append_pose(self, bag, at, x, received=None, frame=""):
         """Another pose of stamp `at` that looks as those of write() do, in the bag where `received` puts it."""
         pose = PoseStamped()

@@ -25,9 +25,10 @@ sensor_msgs::ImagePtr packed(const image::Picture<Value, kChannels>& picture, co
   return cv_bridge::CvImage(header, encoding, pixels).toImageMsg();
 }
 
-/// Without coefficients there is none, whatever the model is called.
+/// Without coefficients there is none, whatever the model is called, nor where zeros have no model.
 image::Distortion distortionOf(const sensor_msgs::CameraInfo& info) {
-  if (info.D.empty()) return {};
+  const bool is_zero = std::all_of(info.D.begin(), info.D.end(), [](double value) { return value == 0.0; });
+  if (info.D.empty() || (is_zero && info.distortion_model.empty())) return {};
   image::Distortion distortion;
   Field model{
       "camera_info/distortion_model", choiceOf(&distortion.model, image::lensModelNames()), "", {}, ""};

@@ -71,13 +71,18 @@ std::string rootOf(const std::string& name_space) {
   return withSlash(root);
 }
 
+std::map<std::string, std::string> typesOfTopics(const rosbag::Bag& bag) {
+  std::map<std::string, std::string> types;
+  rosbag::View view(bag);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections())
+    types.emplace(withSlash(connection->topic), connection->datatype);
+  return types;
+}
+
 std::set<std::string> topicsIn(const std::vector<std::string>& bags) {
   std::set<std::string> topics;
   for (const std::string& path : bags) {
-    const auto bag = openBag(path);
-    rosbag::View view(*bag);
-    for (const rosbag::ConnectionInfo* connection : view.getConnections())
-      topics.insert(withSlash(connection->topic));
+    for (const auto& [topic, type] : typesOfTopics(*openBag(path))) topics.insert(topic);
   }
   return topics;
 }

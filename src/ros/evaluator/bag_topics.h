@@ -4,6 +4,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/query.h>
 
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -26,6 +27,9 @@ rosbag::TopicQuery topicQuery(const std::vector<std::string>& topics);
 
 /// "a, b", or "nothing".
 std::string topicsInWords(const std::set<std::string>& topics);
+
+/// Of each topic, with its slash: what its messages are, "sensor_msgs/Image".
+std::map<std::string, std::string> typesOfTopics(const rosbag::Bag& bag);
 
 /// Each with its slash.
 std::set<std::string> topicsIn(const std::vector<std::string>& bags);

@@ -53,19 +53,14 @@ std::string typeOf() {
 }
 
 bool bringsPoses(const std::string& type) {
-  const std::vector<std::string> known = {
-      typeOf<geometry_msgs::PoseStamped>(), typeOf<geometry_msgs::PoseWithCovarianceStamped>(),
-      typeOf<geometry_msgs::TransformStamped>(), typeOf<nav_msgs::Odometry>(), typeOf<nav_msgs::Path>()};
-  return std::count(known.begin(), known.end(), type) > 0;
+  return typesOfPoses().count(type) > 0 || type == typeOf<nav_msgs::Path>();
 }
 
 /// The one that was named, or the only one of poses.
 std::string topicIn(const rosbag::Bag& bag, const NamedTopic& named) {
-  rosbag::View view(bag);
   std::map<std::string, std::string> found;  // types by topic
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    const std::string topic = withSlash(connection->topic);
-    if (topic == named.topic || bringsPoses(connection->datatype)) found[topic] = connection->datatype;
+  for (const auto& [topic, type] : typesOfTopics(bag)) {
+    if (topic == named.topic || bringsPoses(type)) found.emplace(topic, type);
   }
   if (!named.topic.empty() && found.count(named.topic) > 0) return named.topic;
   if (named.topic.empty() && found.size() == 1) return found.begin()->first;
@@ -113,6 +108,13 @@ std::vector<PoseMessage> messagesIn(const rosbag::Bag& bag, const std::string& t
 }
 
 }  // namespace
+
+const std::set<std::string>& typesOfPoses() {
+  static const std::set<std::string> types = {
+      typeOf<geometry_msgs::PoseStamped>(), typeOf<geometry_msgs::PoseWithCovarianceStamped>(),
+      typeOf<geometry_msgs::TransformStamped>(), typeOf<nav_msgs::Odometry>()};
+  return types;
+}
 
 PoseMessage poseMessageOf(const rosbag::MessageInstance& instance) {
   const auto made = [](const std_msgs::Header& header, const geometry_msgs::Pose& pose) {

@@ -5,6 +5,7 @@
 #include <rosbag/message_instance.h>
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct PoseMessage {
   geometry_msgs::Pose pose;
   std::string frame;  ///< that it stands in, as sent
 };
+
+/// Of messages that bring a pose each, as bags call them.
+const std::set<std::string>& typesOfPoses();
 
 /// Of a geometry_msgs/PoseStamped, PoseWithCovarianceStamped or TransformStamped, or a nav_msgs/Odometry.
 /// Throws std::runtime_error naming topic and type for another message.

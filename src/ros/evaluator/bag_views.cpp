@@ -99,6 +99,10 @@ std::int64_t toleranceOf(const ViewTopics& topics) {
   return static_cast<std::int64_t>(std::llround(1e9 * topics.stamp_tolerance_s));
 }
 
+/// Of messages.
+using Types = std::set<std::string>;
+const Types kCameras = {"sensor_msgs/CameraInfo"}, kDepths = {"sensor_msgs/Image"};
+
 /// As sunlit calls it, if it was not said otherwise.
 std::string calledOr(const std::string& said, const char* usual) {
   return said.empty() ? usual : said;
@@ -117,6 +121,7 @@ std::string infosBeside(std::string images) {
 
 struct BagViews::Index {
   rosbag::View view;
+  std::map<std::string, std::string> held;  // types by topic
   std::string images_topic, infos_topic, captures_topic, depths_topic, poses_topic;
   ByStamp<MessageInstance> images, depths;
   ByStamp<sensor_msgs::CameraInfo> cameras;
@@ -126,23 +131,39 @@ struct BagViews::Index {
   ByStamp<std::string> other_suns;  // their faults
 
   void name(const BagStream& stream, const ViewTopics& topics, const std::string& transport);
+  std::string lackOfAny(const std::string& topic, const std::string& option, const Types& types) const;
 };
 
 // A bag may call some of its topics as sunlit does, and others not.
 void BagViews::Index::name(const BagStream& stream, const ViewTopics& topics, const std::string& transport) {
   const std::string root = rootOf(topics.name_space);
-  const std::set<std::string> held = topicsIn({stream.bag});
+  std::set<std::string> topics_held;
+  for (const auto& [topic, type] : held) topics_held.insert(topic);
   const auto choose = [&](const std::string& said, const std::string& usual) {
     return held.count(said) > 0 ? said : usual;
   };
-  const std::string foreign = heldImages(topics.images, held);
+  const std::string foreign = heldImages(topics.images, topics_held);
   const bool is_foreign = !foreign.empty();
-  images_topic = is_foreign ? foreign : imageTopic(root, stream.stream, transport, held);
+  images_topic = is_foreign ? foreign : imageTopic(root, stream.stream, transport, topics_held);
   infos_topic = choose(topics.camera_info, is_foreign ? infosBeside(topics.images)
                                                       : topicOf(root, stream.stream, topics::kCameraInfo));
   captures_topic = topicOf(root, stream.stream, topics::kCapture);
   depths_topic = choose(topics.depth, root + topics::kDepth);
   poses_topic = choose(topics.poses, root + topics::kPose);
+}
+
+// What could take its place is of these types.
+std::string BagViews::Index::lackOfAny(const std::string& topic, const std::string& option,
+                                       const Types& types) const {
+  std::set<std::string> others;
+  std::string packed;  // depth that nobody here unpacks
+  for (const auto& [name, type] : held) {
+    if (types.count(type) > 0 && name != images_topic) others.insert(name);
+    if (name == topic + "/compressedDepth")
+      packed = "; " + name + " is not read: rosrun image_transport republish compressedDepth makes it raw";
+  }
+  return "the bag holds no " + topic + ", see " + option + packed +
+         (others.empty() ? "" : "; of this kind it holds " + topicsInWords(others));
 }
 
 BagViews::BagViews(const BagStream& stream, const ViewTopics& topics, const IntakeOptions& intake)
@@ -151,6 +172,7 @@ BagViews::BagViews(const BagStream& stream, const ViewTopics& topics, const Inta
       intake_(intake),
       bag_(openBag(stream.bag)),
       index_(std::make_unique<Index>()) {
+  index_->held = typesOfTopics(*bag_);
   index_->name(stream, topics, intake.transport);
   readIndex();
   findOtherSuns();
@@ -246,7 +268,7 @@ BagViews::Entry BagViews::entryOf(std::int64_t stamp_ns) const {
 evaluate::ViewCamera BagViews::cameraAt(std::int64_t stamp_ns) const {
   const ByStamp<sensor_msgs::CameraInfo>& cameras = index_->cameras;
   if (cameras.empty())
-    throw std::invalid_argument("the bag holds no " + index_->infos_topic + ", see --camera-info");
+    throw std::invalid_argument(index_->lackOfAny(index_->infos_topic, "--camera-info", kCameras));
   const auto found = nearest(cameras, stamp_ns);
   const bool is_near = std::abs(found->first - stamp_ns) <= toleranceOf(topics_);
   if (!is_near && cameras.size() != 1)
@@ -257,6 +279,8 @@ evaluate::ViewCamera BagViews::cameraAt(std::int64_t stamp_ns) const {
 
 Eigen::Isometry3d BagViews::poseAt(std::int64_t stamp_ns) const {
   const ByStamp<geometry_msgs::Pose>& poses = index_->poses;
+  if (poses.empty())
+    throw std::invalid_argument(index_->lackOfAny(index_->poses_topic, "--poses", typesOfPoses()));
   const auto requireOnePlace = [&](std::int64_t pose_ns) {
     const auto apart = index_->two_places.find(pose_ns);
     if (apart == index_->two_places.end()) return;
@@ -290,6 +314,7 @@ std::string BagViews::posesTopic() const {
 }
 
 std::string BagViews::lackOfDepth(const Entry& entry) const {
+  if (index_->depths.empty()) return index_->lackOfAny(index_->depths_topic, "--depth", kDepths);
   return lackOf(calledOr(topics_.depth, topics::kDepth), index_->depths, entry.stamp_ns);
 }
 

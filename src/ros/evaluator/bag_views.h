@@ -56,7 +56,7 @@ class BagViews {
   /// Of poses, each once, in the order in which they first come; with the stamp of the first.
   const std::vector<std::pair<std::string, std::int64_t>>& frames() const { return frames_; }
   std::string posesTopic() const;
-  /// "no camera/depth/image_raw of this stamp".
+  /// "no camera/depth/image_raw of this stamp", or that the bag holds none, and what could take its place.
   std::string lackOfDepth(const Entry& entry) const;
 
   /// The picture of an entry without fault; depth too where `wants_depth`. Or why it could not be had.

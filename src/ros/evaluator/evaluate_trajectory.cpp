@@ -1,4 +1,5 @@
 /// evaluate_trajectory: an estimated trajectory against the true one, of files or bags, without a master.
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <sstream>
@@ -40,7 +41,12 @@ struct Options {
 std::vector<Delta> deltasOf(const std::string& value) {
   std::vector<Delta> deltas;
   std::istringstream parts(value);
-  for (std::string part; std::getline(parts, part, ',');) deltas.push_back(parseDelta(part));
+  for (std::string part; std::getline(parts, part, ',');) {
+    const Delta delta = parseDelta(part);
+    const auto is_same = [&](const Delta& other) { return other.name() == delta.name(); };
+    if (std::any_of(deltas.begin(), deltas.end(), is_same)) refuse("delta", value, "each once");
+    deltas.push_back(delta);
+  }
   return deltas;
 }
 

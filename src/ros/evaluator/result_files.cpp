@@ -37,11 +37,12 @@ std::string odometryFile(const BagStream& stream, const std::string& detector) {
 
 void requireOnlyOwnResults(const std::string& folder, const std::set<std::string>& own) {
   std::set<std::string> others;
-  std::error_code none;  // a folder that cannot be read is told of by who writes there
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename();
     if (isResult(entry.path()) && own.count(name) == 0) others.insert(name);
   }
+  if (error) throw std::runtime_error(folder + ": is no folder that can be written: " + error.message());
   if (others.empty()) return;
   throw std::invalid_argument(folder + ": this folder holds results of another run (" + *others.begin() +
                               (others.size() > 1 ? ", …" : "") +

@@ -18,8 +18,9 @@ std::string estimateFile(const BagStream& stream, const std::string& detector);
 /// "odometry_h20_orb.tum".
 std::string odometryFile(const BagStream& stream, const std::string& detector);
 
-/// Throws std::invalid_argument, naming it and a file, where `folder` holds such a table or trajectory that
-/// is not one of `own`: it would stand among them as if it were of the same run.
+/// Before any work: throws std::runtime_error for what is no folder, and std::invalid_argument, naming it and
+/// a file, where `folder` holds such a table or trajectory that is not one of `own`: it would stand among
+/// them as if it were of the same run.
 void requireOnlyOwnResults(const std::string& folder, const std::set<std::string>& own);
 
 }  // namespace sunlit::ros_interface

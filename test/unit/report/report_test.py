@@ -13,6 +13,7 @@ import sys
 import tempfile
 import types
 import unittest
+import warnings as of_python
 from unittest import mock
 
 import matplotlib.pyplot as plt
@@ -1044,6 +1045,18 @@ class Atlas(InFolder):
             drawn = {"usable_hours.png": b"", **{f"{metric[1]}_{method}.png": b"" for method in atlas.methods
                                                  for metric in atlas_figures.METRICS}}
             self.assertIn(part, " ".join(atlas_page.render(atlas, drawn).split()))
+
+    def test_where_nothing_is_localised_the_matrices_are_drawn_without_a_word(self):
+        whole = "1,0,1,1,0,1,1,0,1,0.01,0.1,0.5,0.4,0.6,1,0.5,0.4,0.6,0"
+        self.make(lambda lines: [line.replace(whole, "0,0,1,0,0,1,0,0,1,inf,inf,nan,nan,nan,8,nan,nan,nan,8")
+                                 .replace("inf,inf,0.5,0.4,0.6,1,", "inf,inf,nan,nan,nan,8,") for line in lines])
+        self.write("conditions.csv", [atlas_rows.CONDITIONS, *self.LIGHTS])
+        atlas = atlas_rows.read(self.folder)
+        self.assertTrue(math.isnan(atlas.matrices["orb+clahe"]["d"].max()))
+        with of_python.catch_warnings():
+            of_python.simplefilter("error")
+            for metric in atlas_figures.METRICS:
+                atlas_figures.heat_map(atlas, "orb+clahe", metric)
 
     def test_several_days_are_told_apart(self):
         self.make()

@@ -196,6 +196,17 @@ TEST(Messages, CameraInfoOfRectifiedPicturesIsItsP) {
             "camera_info has no P, but pictures of /image_rect are rectified");
 }
 
+TEST(Messages, CoefficientsOfNoModelAreNoneWhereTheyAreZeros) {
+  sensor_msgs::CameraInfo info = toCameraInfo(
+      image::calibrationOf(image::PinholeCamera::fromFieldOfView(640, 480, Angle::degrees(60.0))), kHeader);
+  info.distortion_model.clear();
+  info.D.assign(5, 0.0);
+  EXPECT_TRUE(fromCameraInfo(info, "/rgb/image_raw").distortion.none());
+  info.D[1] = 0.1;
+  EXPECT_NE(messageOf([&] { fromCameraInfo(info, "/rgb/image_raw"); }).find("distortion_model"),
+            std::string::npos);
+}
+
 TEST(Messages, CameraInfoProjectsLikeTheCamera) {
   const auto camera = image::PinholeCamera::fromFieldOfView(64, 48, Angle::degrees(90.0));
   const sensor_msgs::CameraInfo info = toCameraInfo(image::calibrationOf(camera), kHeader);
