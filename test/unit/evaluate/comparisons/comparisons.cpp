@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "evaluate/comparisons/pairing.h"
 #include "support/temporary_folder.h"
 
 namespace sunlit::evaluate {
@@ -140,6 +141,51 @@ TEST(Comparisons, OfTwoDrivesAreOfQueriesAtOnePlace) {
   const Comparisons of_one = comparisonsOf(measuredOf(rows), {"h12"});
   EXPECT_EQ(of_one.rows.back().test.n, 20u);
   EXPECT_TRUE(of_one.paired_by_place.empty());
+}
+
+/// Places on a lattice of 1 m, of which many are equally far from one another; values are their numbers.
+Measured latticeDrive(const std::string& drive, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::uniform_int_distribution<int> metres(-20, 20), way(0, 1);
+  Measured measured;
+  measured.drive = drive;
+  for (int i = 0; i < 300; ++i) {
+    measured.values.emplace_back(i, i);
+    measured.places.push_back({{1.0 * metres(generator), 1.0 * metres(generator), 0.1 * metres(generator)},
+                               {way(generator) == 1 ? 1.0 : -1.0, 0.0, 0.0}});
+  }
+  return measured;
+}
+
+/// The first of the nearest, by asking all; −1 where none is near.
+int nearestByAskingAll(const MeasuredPlace& place, const std::vector<MeasuredPlace>& all) {
+  int nearest = -1;
+  double least = kSharedPlace_m * kSharedPlace_m;
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const double squared = (all[j].position - place.position).squaredNorm();
+    if (all[j].direction != place.direction || (nearest < 0 ? squared > least : squared >= least)) continue;
+    nearest = static_cast<int>(j);
+    least = squared;
+  }
+  return nearest;
+}
+
+TEST(Comparisons, PairPlacesThatAreNearestToEachOther) {
+  const Measured a = latticeDrive("a", 1), b = latticeDrive("b", 2);
+  std::vector<double> of_a, of_b;
+  for (std::size_t i = 0; i < a.places.size(); ++i) {
+    const int there = nearestByAskingAll(a.places[i], b.places);
+    if (there < 0) continue;
+    if (nearestByAskingAll(b.places[static_cast<std::size_t>(there)], a.places) != static_cast<int>(i))
+      continue;
+    of_a.push_back(static_cast<double>(i));
+    of_b.push_back(there);
+  }
+  EXPECT_GT(of_a.size(), 50u);
+  const Paired paired = pairedOf(a, b);
+  EXPECT_EQ(paired.a, of_a);
+  EXPECT_EQ(paired.b, of_b);
+  EXPECT_EQ(paired.unpaired, 600u - 2 * of_a.size());
 }
 
 TEST(Comparisons, CountQueriesThatFail) {
