@@ -113,8 +113,10 @@ TEST_F(Lenient, WhatAnExplosionOfPhysicsCarriedFarAwayIsLeftOut) {
       loaded(model(link(kVisual)) + model("<pose>1 1 343582.7 0 0 0</pose>" + link(kVisual), "n"));
   EXPECT_EQ(scene.meshes.size(), 1u);
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(scene.warnings[0],
-            "1 meshes reach farther than 100 km from the origin, what of them does was left out: n::l::v");
+  EXPECT_EQ(
+      scene.warnings[0],
+      "1 meshes reach farther than 100 km from the origin, what of them does was left out (coordinates of "
+      "a map, such as UTM's, need an offset taken off): n::l::v");
 }
 
 TEST_F(Lenient, TheSameModelTwiceWithoutANameIsDrawnTwice) {

@@ -14,6 +14,7 @@
 #include "light/bake/gather/sky_in_ground.h"
 #include "light/bake/samples/adaptive_probe.h"
 #include "light/bake/samples/burial_test.h"
+#include "light/bake/samples/met_sample.h"
 #include "light/bake/samples/parting_walls.h"
 #include "light/patches/angles.h"
 #include "light/shading/mirror_lobe.h"

@@ -10,6 +10,7 @@
 #include "light/bake/gather/lamps_on_samples.h"
 #include "light/bake/samples/looked_for.h"
 #include "light/bake/samples/mesh_leaves.h"
+#include "light/bake/samples/met_sample.h"
 #include "light/lamps/lamp_sets.h"
 #include "sunlit/quantity/angle.h"
 

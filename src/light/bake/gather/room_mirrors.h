@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "light/bake/samples/scene_samples.h"
+#include "light/bake/samples/met_sample.h"
 #include "light/shading/reflectances.h"
 #include "sunlit/light/geometry.h"
 

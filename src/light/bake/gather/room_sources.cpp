@@ -7,6 +7,7 @@
 
 #include "light/bake/gather/rooms.h"
 #include "light/bake/samples/mesh_leaves.h"
+#include "light/bake/samples/met_sample.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/quantity/random.h"
 

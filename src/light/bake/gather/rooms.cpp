@@ -11,6 +11,7 @@
 
 #include "light/bake/gather/room_directions.h"
 #include "light/bake/gather/room_mirrors.h"
+#include "light/bake/samples/met_sample.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/random.h"
 

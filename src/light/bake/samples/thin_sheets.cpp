@@ -1,6 +1,7 @@
 #include "light/bake/samples/thin_sheets.h"
 
 #include "light/bake/samples/mesh_leaves.h"
+#include "light/bake/samples/met_sample.h"
 
 namespace sunlit::light {
 
