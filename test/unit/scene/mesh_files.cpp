@@ -243,25 +243,30 @@ TEST_F(MeshFile, ATextureThatIsNowhereSolidIsNoCutOut) {
 }
 
 TEST_F(MeshFile, WhatIsPaintedBelowAlphaIsOpaqueUnlessTheFileAsksForIt) {
-  image::Rgba8Image picture(4, 4);
-  for (std::size_t i = 0; i < picture.data.size(); ++i)
-    picture.data[i] = i % 4 == 3 ? (i < 32 ? 0 : 255) : static_cast<std::uint8_t>(i);
-  write("paint.png", image::encodePng(picture));
+  image::Rgba8Image painted(4, 4),
+      nearly_all(5, 5);  // hidden: two rows of many colours, and 24 texels of one
+  for (std::size_t i = 0; i < painted.data.size(); ++i)
+    painted.data[i] = i % 4 == 3 ? (i < 32 ? 0 : 255) : static_cast<std::uint8_t>(i);
+  for (std::size_t i = 0; i < nearly_all.data.size(); ++i) nearly_all.data[i] = i % 4 == 3 && i > 4 ? 0 : 255;
   write("m.mtl", "newmtl a\nmap_Kd paint.png\n");
   write("t.obj",
         "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
   write("t.dae", collada(kCentimetresZUp, "paint.png"));
-  for (const char* name : {"t.obj", "t.dae"}) {
-    const Scene scene = load(pathOf(name), {});
-    EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::kOpaque) << name;
-    ASSERT_EQ(scene.warnings.size(), 1u) << name;
-    EXPECT_NE(scene.warnings[0].find("paint.png, of whose alpha the file says nothing: drawn as opaque"),
-              std::string::npos)
-        << scene.warnings[0];
+  write("asks.dae", seenThrough(collada(kCentimetresZUp, "paint.png")));
+  for (const image::Rgba8Image& picture : {painted, nearly_all}) {
+    write("paint.png", image::encodePng(picture));
+    for (const char* name : {"t.obj", "t.dae"}) {
+      const Scene scene = load(pathOf(name), {});
+      EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::kOpaque) << name;
+      ASSERT_EQ(scene.warnings.size(), 1u) << name;
+      EXPECT_NE(scene.warnings[0].find("paint.png, of whose alpha the file says nothing: drawn as opaque"),
+                std::string::npos)
+          << scene.warnings[0];
+    }
+    const Scene asked = load(pathOf("asks.dae"), {});
+    EXPECT_EQ(asked.materials[0].alpha_mode, AlphaMode::kMask);
+    EXPECT_TRUE(asked.warnings.empty());
   }
-  const Scene asked = load(write("t.dae", seenThrough(collada(kCentimetresZUp, "paint.png"))), {});
-  EXPECT_EQ(asked.materials[0].alpha_mode, AlphaMode::kMask);
-  EXPECT_TRUE(asked.warnings.empty());
 }
 
 TEST_F(MeshFile, ABrokenTextureIsANamedWarningAndANeutralMaterial) {
