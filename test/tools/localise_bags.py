@@ -425,6 +425,32 @@ class LocaliseBags(unittest.TestCase):
             self.assertRegex(self.refused(*drives), "out: is no folder that can be written: Not a directory\n$")
         self.assertEqual(file.read_text(encoding="utf-8"), "mine")
 
+    def test_poses_of_two_bodies_on_one_topic_are_refused(self):
+        noon, dusk = self.bags()
+        with rosbag.Bag(dusk, "a") as bag:
+            for index, body in enumerate(("/rover", "rover", "", "crane")):
+                pose = TransformStamped(child_frame_id=body)
+                pose.header.stamp = rospy.Time(100 + index)
+                pose.transform.rotation.w = 1
+                bag.write("/vicon", pose, pose.header.stamp)
+        done = run("evaluate_bags", "--out", self.path("out"), "--map", noon, "--query", dusk, "--poses", "/vicon")
+        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (
+            1, "evaluate_bags: %s: /vicon has poses of rover and of crane (child_frame_id), which make no trajectory; rosbag "
+               "filter %s ONE.bag \"topic != '/vicon' or m.child_frame_id == 'rover'\" keeps those of one" % (dusk, dusk)))
+        done = run("evaluate_trajectory", "--out", self.path("out"), "--truth", dusk + ":/camera/pose", "--estimate", dusk + ":/vicon")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("/vicon has poses of rover and of crane", done.stderr)
+
+    def test_a_bag_that_is_damaged_inside_is_named(self):
+        noon, dusk = self.bags()
+        content = pathlib.Path(dusk).read_bytes()
+        pathlib.Path(dusk).write_bytes(content.replace(b"op=\x02", bytes(4)))  # of every message
+        told = "%s: is damaged inside (" % dusk
+        for arguments in (["--map", dusk, "--query", noon], ["--odometry", dusk], [noon, dusk]):
+            done = run("evaluate_bags", "--out", self.path("out"), *arguments)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(told, done.stderr, arguments)
+
     def append_pose(self, bag, at, x, received=None, frame=""):
         """Another pose of stamp `at` that looks as those of write() do, in the bag where `received` puts it."""
         pose = PoseStamped()

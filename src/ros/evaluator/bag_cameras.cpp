@@ -35,19 +35,22 @@ struct Told {
 void requireOneCamera(const std::vector<std::string>& bags, const std::vector<std::string>& topics) {
   if (bags.size() < 2) return;
   std::map<std::pair<std::string, ros::Time>, Told> told;
+  const auto note = [&](std::size_t b, const rosbag::MessageInstance& instance) {
+    const auto camera = messageOf<sensor_msgs::CameraInfo>(instance);
+    const std::string topic = withSlash(instance.getTopic());
+    const auto [first, is_new] = told.try_emplace({topic, camera->header.stamp}, Told{b, camera});
+    if (is_new || first->second.bag == b || isOne(*first->second.camera, *camera)) return;
+    throw std::runtime_error(bags[first->second.bag] + " and " + bags[b] + " are of two cameras: " + topic +
+                             " differs at stamp " + textOfStamp(camera->header.stamp) +
+                             "; evaluate each by itself, or one beside the other by --map " +
+                             bags[first->second.bag] + " --query " + bags[b]);
+  };
   for (std::size_t b = 0; b < bags.size(); ++b) {
     const auto bag = openBag(bags[b]);
-    rosbag::View view(*bag, topicQuery(topics));
-    for (const rosbag::MessageInstance& instance : view) {
-      const auto camera = messageOf<sensor_msgs::CameraInfo>(instance);
-      const std::string topic = withSlash(instance.getTopic());
-      const auto [first, is_new] = told.try_emplace({topic, camera->header.stamp}, Told{b, camera});
-      if (is_new || first->second.bag == b || isOne(*first->second.camera, *camera)) continue;
-      throw std::runtime_error(bags[first->second.bag] + " and " + bags[b] + " are of two cameras: " + topic +
-                               " differs at stamp " + textOfStamp(camera->header.stamp) +
-                               "; evaluate each by itself, or one beside the other by --map " +
-                               bags[first->second.bag] + " --query " + bags[b]);
-    }
+    readingBag(bags[b], [&] {
+      rosbag::View view(*bag, topicQuery(topics));
+      for (const rosbag::MessageInstance& instance : view) note(b, instance);
+    });
   }
 }
 

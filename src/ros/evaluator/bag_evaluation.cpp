@@ -13,6 +13,7 @@
 #include "ros/conversions/evaluation.h"
 #include "ros/conversions/received_images.h"
 #include "ros/evaluator/bag_cameras.h"
+#include "ros/evaluator/bag_list.h"
 #include "ros/evaluator/bag_message.h"
 #include "ros/evaluator/bag_topics.h"
 #include "ros/evaluator/folder_lock.h"
@@ -79,7 +80,8 @@ void warnOfNothingIn(const std::string& bag, const std::vector<std::string>& wan
 
 class BagSource {
  public:
-  explicit BagSource(const BagEvaluationOptions& options) : max_pixels_(options.intake.max_pixels) {
+  explicit BagSource(const BagEvaluationOptions& options)
+      : max_pixels_(options.intake.max_pixels), paths_(options.bags) {
     const std::string root = rootOf(options.name_space);
     const std::set<std::string> held = topicsIn(options.bags);
     requireToLocaliseBy(options.evaluation, root, held);
@@ -101,6 +103,7 @@ class BagSource {
     for (const std::string& path : options.bags) {
       warnOfNothingIn(path, wanted);
       bags_.push_back(openBag(path));
+      requireImages(path);
       view_.addQuery(*bags_.back(), topicQuery(wanted));
       rosbag::View places(*bags_.back(), topicQuery({place_topic_}));
       for (const rosbag::ConnectionInfo* connection : places.getConnections())
@@ -108,7 +111,47 @@ class BagSource {
     }
   }
 
+  const std::vector<std::unique_ptr<rosbag::Bag>>& bags() const { return bags_; }
+
   void feed(evaluate::Evaluation& evaluation) {
+    try {
+      feedAll(evaluation);
+    } catch (const rosbag::BagException&) {
+      tellDamaged();
+      throw;
+    } catch (const ros::Exception&) {
+      tellDamaged();
+      throw;
+    }
+  }
+
+ private:
+  /// Which bag cannot be read whole: throws as readingBag() does.
+  void tellDamaged() const {
+    for (std::size_t i = 0; i < bags_.size(); ++i) {
+      readingBag(paths_[i], [&] {
+        rosbag::View all(*bags_[i]);
+        std::vector<std::uint8_t> bytes;
+        for (const rosbag::MessageInstance& instance : all) {
+          bytes.resize(instance.size());
+          ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+          instance.write(out);
+        }
+      });
+    }
+  }
+
+  /// Before the first is looked at, which may be hours later.
+  void requireImages(const std::string& path) const {
+    for (const auto& [topic, type] : typesOfTopics(*bags_.back())) {
+      if (images_.count(topic) == 0 || type == "sensor_msgs/Image" || type == "sensor_msgs/CompressedImage")
+        continue;
+      throw std::runtime_error(path + ": " + topic + " is " + type +
+                               ", not sensor_msgs/Image or sensor_msgs/CompressedImage");
+    }
+  }
+
+  void feedAll(evaluate::Evaluation& evaluation) {
     for (const rosbag::MessageInstance& instance : view_) {
       const std::string topic = withSlash(instance.getTopic());
       if (const auto found = images_.find(topic); found != images_.end()) {
@@ -133,7 +176,6 @@ class BagSource {
     }
   }
 
- private:
   void feedImage(evaluate::Evaluation& evaluation, std::size_t stream,
                  const rosbag::MessageInstance& instance) const {
     if (const auto message = instance.instantiate<sensor_msgs::Image>())
@@ -165,7 +207,8 @@ class BagSource {
 
   std::size_t max_pixels_;
   PoseFrames frames_;
-  std::vector<std::unique_ptr<rosbag::Bag>> bags_;
+  std::vector<std::string> paths_;
+  std::vector<std::unique_ptr<rosbag::Bag>> bags_;  ///< of these
   rosbag::View view_;
   std::map<std::string, std::size_t> images_;
   std::map<std::string, std::size_t> captures_;
@@ -211,7 +254,9 @@ int evaluateBags(const BagEvaluationOptions& options) {
   evaluate::EvaluationCallbacks callbacks;
   callbacks.note = [](const std::string& line) { std::printf("%s\n", line.c_str()); };
   const FolderLock lock(options.evaluation.output_dir);
+  if (source) requireSameBags(options.evaluation.output_dir, source->bags());
   evaluate::Evaluation evaluation(options.evaluation, callbacks);
+  if (source) noteBags(options.evaluation.output_dir, source->bags());
   if (source) source->feed(evaluation);
   const evaluate::Outcome outcome = evaluation.finish();
   std::printf("%zu poses in %s\n%s%s\n", outcome.counts.evaluatedPoses(),

@@ -1,5 +1,6 @@
 #include "ros/evaluator/bag_topics.h"
 
+#include <ros/exception.h>
 #include <rosbag/view.h>
 
 #include <cstdio>
@@ -50,6 +51,20 @@ std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
     throw std::runtime_error(told);
   }
   return bag;
+}
+
+void readingBag(const std::string& path, const std::function<void()>& read) {
+  const auto fail = [&](const std::string& why) {
+    throw std::runtime_error(path + ": is damaged inside (" + why +
+                             "): copy it again from where it was recorded");
+  };
+  try {
+    read();
+  } catch (const rosbag::BagException& error) {
+    fail(error.what());
+  } catch (const ros::Exception& error) {  // of a message that is cut short
+    fail(error.what());
+  }
 }
 
 std::string withSlash(const std::string& topic) {

@@ -4,6 +4,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/query.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -15,6 +16,10 @@ namespace sunlit::ros_interface {
 /// Throws std::runtime_error with path and reason for a bag that cannot be read, and what mends one that was
 /// cut off.
 std::unique_ptr<rosbag::Bag> openBag(const std::string& path);
+
+/// Calls `read`, which reads messages of the bag; throws std::runtime_error that names it where it is damaged
+/// inside, be its index whole.
+void readingBag(const std::string& path, const std::function<void()>& read);
 
 /// "/" or "/name/…/".
 std::string rootOf(const std::string& name_space);

@@ -90,7 +90,7 @@ std::optional<StampedPose> stampedPoseOf(const PoseMessage& message, const std::
 std::vector<PoseMessage> messagesOf(const nav_msgs::Path& path) {
   std::vector<PoseMessage> messages;
   for (const geometry_msgs::PoseStamped& pose : path.poses)
-    messages.push_back({nanosecondsOf(pose.header.stamp), pose.pose, pose.header.frame_id});
+    messages.push_back({nanosecondsOf(pose.header.stamp), pose.pose, pose.header.frame_id, ""});
   return messages;
 }
 
@@ -117,17 +117,18 @@ const std::set<std::string>& typesOfPoses() {
 }
 
 PoseMessage poseMessageOf(const rosbag::MessageInstance& instance) {
-  const auto made = [](const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
-    return PoseMessage{nanosecondsOf(header.stamp), pose, header.frame_id};
+  const auto made = [](const std_msgs::Header& header, const geometry_msgs::Pose& pose,
+                       const std::string& body = "") {
+    return PoseMessage{nanosecondsOf(header.stamp), pose, header.frame_id, body};
   };
   if (const auto message = instance.instantiate<geometry_msgs::PoseStamped>())
     return made(message->header, message->pose);
   if (const auto message = instance.instantiate<geometry_msgs::PoseWithCovarianceStamped>())
     return made(message->header, message->pose.pose);
   if (const auto message = instance.instantiate<nav_msgs::Odometry>())
-    return made(message->header, message->pose.pose);
+    return made(message->header, message->pose.pose, message->child_frame_id);
   if (const auto message = instance.instantiate<geometry_msgs::TransformStamped>())
-    return made(message->header, poseOf(message->transform));
+    return made(message->header, poseOf(message->transform), message->child_frame_id);
   throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() +
                            ", not geometry_msgs/PoseStamped, PoseWithCovarianceStamped or TransformStamped, "
                            "nor nav_msgs/Odometry");
@@ -141,13 +142,16 @@ Trajectory readBagTrajectory(const std::string& named, LeftOutPoses* left_out) {
   const NamedTopic chosen = namedTopic(named);
   const std::unique_ptr<rosbag::Bag> bag = openBag(chosen.bag);
   const std::string topic = topicIn(*bag, chosen);
-  std::vector<PoseMessage> messages = messagesIn(*bag, topic);
+  std::vector<PoseMessage> messages;
+  readingBag(chosen.bag, [&] { messages = messagesIn(*bag, topic); });
   if (messages.empty()) throw std::runtime_error(chosen.bag + ": " + topic + " holds no pose");
   std::stable_sort(messages.begin(), messages.end(),
                    [](const PoseMessage& a, const PoseMessage& b) { return a.stamp_ns < b.stamp_ns; });
   Trajectory trajectory;
   PoseFrames frames;
+  PoseBody body;
   for (const PoseMessage& message : messages) {
+    body.require(message.body, {topic, chosen.bag});
     const std::optional<StampedPose> pose = stampedPoseOf(message, topic, left_out);
     if (!pose) continue;
     if (std::string warning = frames.note(message.frame, topic + " of " + chosen.bag); !warning.empty())

@@ -17,6 +17,7 @@ struct PoseMessage {
   std::int64_t stamp_ns = 0;
   geometry_msgs::Pose pose;
   std::string frame;  ///< that it stands in, as sent
+  std::string body;   ///< that it is of, its child_frame_id; empty where the message has none
 };
 
 /// Of messages that bring a pose each, as bags call them.

@@ -174,7 +174,7 @@ BagViews::BagViews(const BagStream& stream, const ViewTopics& topics, const Inta
       index_(std::make_unique<Index>()) {
   index_->held = typesOfTopics(*bag_);
   index_->name(stream, topics, intake.transport);
-  readIndex();
+  readingBag(stream.bag, [&] { readIndex(); });
   findOtherSuns();
   makeEntries();
 }
@@ -208,6 +208,7 @@ void BagViews::readIndex() {
 }
 
 void BagViews::addPose(const PoseMessage& message) {
+  body_.require(message.body, {index_->poses_topic, stream_.bag});
   const auto is_its = [&](const auto& frame) { return frame.first == message.frame; };
   if (std::none_of(frames_.begin(), frames_.end(), is_its))
     frames_.emplace_back(message.frame, message.stamp_ns);
@@ -327,6 +328,16 @@ std::string BagViews::readDepth(const Entry& entry, cv::Mat* depth) const {
 }
 
 BagViews::Read BagViews::read(std::size_t number, bool wants_depth) const {
+  Read result;
+  try {
+    readingBag(stream_.bag, [&] { result = readWhole(number, wants_depth); });
+  } catch (const std::runtime_error& error) {
+    result.fault = error.what();
+  }
+  return result;
+}
+
+BagViews::Read BagViews::readWhole(std::size_t number, bool wants_depth) const {
   const Entry& entry = entries_.at(number);
   const MessageInstance& instance = index_->images.at(entry.stamp_ns);
   const DecodedImage decoded =

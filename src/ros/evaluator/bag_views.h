@@ -15,6 +15,7 @@
 #include "ros/evaluator/bag_streams.h"
 #include "ros/evaluator/bag_trajectory.h"
 #include "ros/evaluator/image_intake.h"
+#include "ros/evaluator/pose_frames.h"
 #include "ros/evaluator/view_topics.h"
 #include "sunlit/evaluate/posed_view.h"
 #include "sunlit/image/camera.h"
@@ -76,6 +77,7 @@ class BagViews {
   evaluate::ViewCamera cameraAt(std::int64_t stamp_ns) const;
   Eigen::Isometry3d poseAt(std::int64_t stamp_ns) const;
   std::string readDepth(const Entry& entry, cv::Mat* depth) const;
+  Read readWhole(std::size_t entry, bool wants_depth) const;
 
   BagStream stream_;
   ViewTopics topics_;
@@ -87,6 +89,7 @@ class BagViews {
   std::vector<std::int64_t> repeated_;
   std::size_t repeated_depths_ = 0;
   std::vector<std::pair<std::string, std::int64_t>> frames_;
+  PoseBody body_;
 };
 
 }  // namespace sunlit::ros_interface

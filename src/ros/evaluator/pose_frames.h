@@ -1,4 +1,4 @@
-/// Whether true poses are all of one frame.
+/// Whether true poses are all of one frame, and those of a topic of one body.
 #pragma once
 
 #include <set>
@@ -22,6 +22,22 @@ class PoseFrames {
  private:
   std::string first_, first_where_;
   std::set<std::pair<std::string, std::string>> told_;  // frames, and where they came
+};
+
+/// The body that the poses of one topic are of, by child_frame_id: those of two make no trajectory, though
+/// bridges of motion capture send many on one topic.
+class PoseBody {
+ public:
+  /// Where the messages come.
+  struct Topic {
+    std::string name, bag;
+  };
+  /// Throws std::runtime_error that names both bodies, and what keeps one, where this is another than the
+  /// first. A slash in front makes no difference, and a body without a name says nothing.
+  void require(const std::string& child_frame_id, const Topic& topic);
+
+ private:
+  std::string first_;
 };
 
 }  // namespace sunlit::ros_interface

@@ -295,6 +295,22 @@ class TestBags(unittest.TestCase):
         self.assertEqual(status, 0, output)
         self.assertTrue(read(self.path('live'), 'report.html').startswith(b'<!DOCTYPE html>'), output)
 
+    def test_a_folder_of_one_bag_is_not_gone_on_with_by_another(self):
+        self.write_bags({'all.bag': [0, 1]}, range(2))
+        self.write_bags({'other.bag': [0, 1, 2]}, range(2))  # of the same stamps
+        with open(self.path('both.yaml'), 'w') as file:
+            file.write('{streams: [h04, h12], output_dir: unused, differences: [boolean_rgb], report: false}')
+        evaluate = ['--config', self.path('both.yaml'), '--out', self.path('out')]
+        self.assertEqual(self.evaluate_bags(*evaluate, self.path('all.bag')).returncode, 0)
+        whole = read(self.path('out'), 'frames.csv')
+        done = self.evaluate_bags(*evaluate, self.path('other.bag'))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('out: this folder holds results of another bag, all.bag, which would be taken for those of one run',
+                      done.stdout)
+        os.rename(self.path('all.bag'), self.path('moved.bag'))
+        self.assertEqual(self.evaluate_bags(*evaluate, self.path('moved.bag')).returncode, 0)
+        self.assertEqual(read(self.path('out'), 'frames.csv'), whole)
+
     def test_two_recordings_of_one_stamp_are_not_taken_for_one_place(self):
         self.write_bags({'morning.bag': [0]}, range(3))
         self.write_bags({'noon.bag': [1]}, range(3), begin=2.0)
