@@ -339,7 +339,7 @@ def pairs(names, self_test, every):
     if self_test:
         both += [{"a": name, "b": self_test_stream(name), "every": every} for name in names]
     if not both:
-        raise BadArgument("hours", ", ".join(names), "two hours or more, or one with self_test:=true")
+        raise BadArgument("hours or conditions", ", ".join(names), "two or more, or one with self_test:=true")
     return both
 
 

@@ -176,7 +176,7 @@ class Arguments(unittest.TestCase):
                           {"a": "h12", "b": "self_test/h12", "every": 10},
                           {"a": "h20", "b": "self_test/h20", "every": 10}])
         self.assertEqual(arguments.pairs(["h04", "h12"], False, 10), [{"a": "h04", "b": "h12"}])
-        self.assert_refused("two hours or more", arguments.pairs, ["h04"], False, 10)
+        self.assert_refused("two or more, or one with self_test:=true", arguments.pairs, ["h04"], False, 10)
 
     def test_dates_and_places(self):
         self.assertEqual(arguments.date_time("2024-07-01", "3"),
@@ -291,7 +291,7 @@ class Plan(unittest.TestCase):
 
     def test_what_is_no_time_or_place_is_refused_by_name(self):
         self.assert_refused("argument hours is '[4, x]'", hours="[4, x]")
-        self.assert_refused("argument hours is 'h12', but must be two hours or more", hours="[12]", self_test="false")
+        self.assert_refused("argument hours or conditions is 'h12', but must be two or more", hours="[12]", self_test="false")
         self.assert_refused("argument date is '2024-02-31'", date="2024-02-31")
         self.assert_refused("argument site is '[91]'", site="[91]")
 
