@@ -1,9 +1,14 @@
 #include "sunlit/ros/frame_names.h"
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
 namespace sunlit::ros_interface {
+
+std::string withoutSlash(const std::string& frame) {
+  return frame.substr(std::min(frame.find_first_not_of('/'), frame.size()));
+}
 
 void requireFrameNames(const ParameterReader& parameters, const std::vector<Field>& rows) {
   std::map<std::string, std::string> keys;

@@ -6,17 +6,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "sunlit/ros/frame_names.h"
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
-namespace {
-
-/// As TF itself reads names of those who still write a slash in front.
-std::string withoutSlash(const std::string& frame) {
-  return frame.empty() || frame.front() != '/' ? frame : frame.substr(1);
-}
-
-}  // namespace
 
 FrameWatch::FrameWatch(ros::NodeHandle node, std::string frame, std::string parent, std::string advice)
     : frame_(std::move(frame)), parent_(std::move(parent)), advice_(std::move(advice)) {

@@ -168,9 +168,8 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
       count("triangles with coordinates that are not finite were left out", mesh.name);
     } else if (isFar(moved, triangle)) {
       warn(
-          "meshes reach farther than 100 km from the origin, what of them does was left out (coordinates of "
-          "a "
-          "map, such as UTM's, need an offset taken off)",
+          "meshes reach farther than 100 km from the origin, what of them does was left out "
+          "(coordinates of a map, such as UTM's, need an offset taken off)",
           mesh.name);
     } else if (area < kNoArea_m2) {
       count("triangles without area were left out", mesh.name);

@@ -191,15 +191,14 @@ bool holdsAnyFile(const std::string& folder) {
   return false;
 }
 
-/// More than a run leaves that ended before anything came.
+}  // namespace
+
 bool holdsResults(const std::string& folder) {
   for (const char* name : {"/frames.csv", "/captures.csv", "/path.csv"}) {
     if (hasRows(folder + name)) return true;
   }
   return holdsAnyFile(folder + "/images");
 }
-
-}  // namespace
 
 void requireNoRun(const std::string& folder) {
   if (holdsSettings(folder + "/run.yaml") && holdsResults(folder))

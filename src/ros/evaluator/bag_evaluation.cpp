@@ -116,9 +116,6 @@ class BagSource {
   void feed(evaluate::Evaluation& evaluation) {
     try {
       feedAll(evaluation);
-    } catch (const rosbag::BagException&) {
-      tellDamaged();
-      throw;
     } catch (const ros::Exception&) {
       tellDamaged();
       throw;
@@ -144,10 +141,7 @@ class BagSource {
   /// Before the first is looked at, which may be hours later.
   void requireImages(const std::string& path) const {
     for (const auto& [topic, type] : typesOfTopics(*bags_.back())) {
-      if (images_.count(topic) == 0 || type == "sensor_msgs/Image" || type == "sensor_msgs/CompressedImage")
-        continue;
-      throw std::runtime_error(path + ": " + topic + " is " + type +
-                               ", not sensor_msgs/Image or sensor_msgs/CompressedImage");
+      if (images_.count(topic) > 0) requireImage(path + ": " + topic, type, true);
     }
   }
 
@@ -178,12 +172,10 @@ class BagSource {
 
   void feedImage(evaluate::Evaluation& evaluation, std::size_t stream,
                  const rosbag::MessageInstance& instance) const {
-    if (const auto message = instance.instantiate<sensor_msgs::Image>())
-      return feedDecoded(evaluation, stream, message->header, decode(*message, max_pixels_));
     if (const auto message = instance.instantiate<sensor_msgs::CompressedImage>())
       return feedDecoded(evaluation, stream, message->header, decode(*message, max_pixels_));
-    throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() +
-                             ", not sensor_msgs/Image or sensor_msgs/CompressedImage");
+    const auto message = messageOf<sensor_msgs::Image>(instance);
+    feedDecoded(evaluation, stream, message->header, decode(*message, max_pixels_));
   }
 
   void noteFrame(evaluate::Evaluation& evaluation, const std_msgs::Header& header, const std::string& bag) {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "sunlit/evaluate/run/run_folder.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::ros_interface {
@@ -37,7 +38,7 @@ std::vector<std::string> linesOf(const std::string& file) {
 }  // namespace
 
 void requireSameBags(const std::string& folder, const std::vector<std::unique_ptr<rosbag::Bag>>& bags) {
-  if (linesOf(folder + "/frames.csv").empty()) return;
+  if (!evaluate::holdsResults(folder)) return;
   std::vector<std::string> given;
   for (const auto& bag : bags) given.push_back(identityOf(*bag));
   for (const std::string& line : linesOf(folder + kFile)) {

@@ -10,6 +10,13 @@
 
 namespace sunlit::ros_interface {
 
+/// Throws std::runtime_error that names `topic` where messages of that type are no images.
+inline void requireImage(const std::string& topic, const std::string& type, bool may_be_compressed) {
+  if (type == "sensor_msgs/Image" || (may_be_compressed && type == "sensor_msgs/CompressedImage")) return;
+  throw std::runtime_error(topic + " is " + type + ", not sensor_msgs/Image" +
+                           (may_be_compressed ? " or sensor_msgs/CompressedImage" : ""));
+}
+
 /// Throws std::runtime_error that names the topic where it is of another type, or of another definition of
 /// this one: such cannot be read.
 template <typename Message>

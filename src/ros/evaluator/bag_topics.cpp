@@ -54,16 +54,11 @@ std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
 }
 
 void readingBag(const std::string& path, const std::function<void()>& read) {
-  const auto fail = [&](const std::string& why) {
-    throw std::runtime_error(path + ": is damaged inside (" + why +
-                             "): copy it again from where it was recorded");
-  };
   try {
     read();
-  } catch (const rosbag::BagException& error) {
-    fail(error.what());
-  } catch (const ros::Exception& error) {  // of a message that is cut short
-    fail(error.what());
+  } catch (const ros::Exception& error) {  // of records, and of a message that is cut short
+    throw std::runtime_error(path + ": is damaged inside (" + error.what() +
+                             "): copy it again from where it was recorded");
   }
 }
 

@@ -43,13 +43,6 @@ std::int64_t stampOf(const MessageInstance& instance) {
   return nanosecondsOf(header.stamp);
 }
 
-void requireImage(const MessageInstance& instance, bool may_be_compressed) {
-  if (instance.isType<sensor_msgs::Image>()) return;
-  if (may_be_compressed && instance.isType<sensor_msgs::CompressedImage>()) return;
-  throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() + ", not sensor_msgs/Image" +
-                           (may_be_compressed ? " or sensor_msgs/CompressedImage" : ""));
-}
-
 /// The nearest to `stamp_ns`, the earlier of two; the end only where there is nothing.
 template <typename Value>
 typename ByStamp<Value>::const_iterator nearest(const ByStamp<Value>& values, std::int64_t stamp_ns) {
@@ -191,11 +184,11 @@ void BagViews::readIndex() {
     if (topic == index.poses_topic) {  // before all that it may have been named instead of
       addPose(poseMessageOf(instance));
     } else if (topic == index.images_topic) {
-      requireImage(instance, true);
+      requireImage(instance.getTopic(), instance.getDataType(), true);
       const std::int64_t stamp_ns = stampOf(instance);
       if (!index.images.emplace(stamp_ns, instance).second) repeated_.push_back(stamp_ns);
     } else if (topic == index.depths_topic) {
-      requireImage(instance, false);
+      requireImage(instance.getTopic(), instance.getDataType(), false);
       if (!index.depths.emplace(stampOf(instance), instance).second) ++repeated_depths_;
     } else if (topic == index.infos_topic) {
       const auto message = messageOf<sensor_msgs::CameraInfo>(instance);

@@ -1,16 +1,10 @@
 #include "ros/evaluator/pose_frames.h"
 
-#include <algorithm>
 #include <stdexcept>
 
+#include "sunlit/ros/frame_names.h"
+
 namespace sunlit::ros_interface {
-namespace {
-
-std::string withoutSlash(const std::string& frame_id) {
-  return frame_id.substr(std::min(frame_id.find_first_not_of('/'), frame_id.size()));
-}
-
-}  // namespace
 
 std::string PoseFrames::note(const std::string& frame_id, const std::string& where) {
   const std::string frame = withoutSlash(frame_id);
