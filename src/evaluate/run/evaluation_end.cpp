@@ -138,6 +138,10 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
     if (count > 0 && callbacks_.note)
       callbacks_.note(file("path.csv") + ": " + std::to_string(count) + " poses of " + what + " left out");
   }
+  if (poses_.strayCaptures() > 0 && callbacks_.note)
+    callbacks_.note(
+        file("captures.csv") + ": " + std::to_string(poses_.strayCaptures()) +
+        " stamps, none of them that of an image: poses are numbered by the order of their images");
   outcome.not_mended = countNotMended(
       problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); }));
   writeRunFile(file("run.yaml"), options_, &outcome, nullptr);

@@ -66,13 +66,27 @@ bool Evaluation::State::isLeftOutCapture(const std::string& stream, const Captur
   return suns_.isOther(stream, capture.stamp_ns) && isAskedFor(number, capture.stamp_ns, pose);
 }
 
-// With the first capture, what was by order until then waits for captures of its own.
+// With the first capture of an image, what was by order until then waits for captures of its own.
+void Evaluation::State::forgetOrder() {
+  completed_.forgetNumbers();
+  for (PictureWriter* writer : {pictures_.get(), drawn_.get()}) {
+    if (writer != nullptr) writer->setAside();
+  }
+}
+
+// Its capture may have come before it.
+std::optional<std::int64_t> Evaluation::State::poseOfImage(std::int64_t stamp_ns) {
+  const bool was_by_order = poses_.isByOrder();
+  const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
+  if (was_by_order && !poses_.isByOrder()) forgetOrder();
+  return pose;
+}
+
 void Evaluation::State::learn(const CaptureRecord& capture) {
   const bool was_by_order = poses_.isByOrder();
-  if (was_by_order) completed_.forgetNumbers();
   poses_.learn(capture.stamp_ns, capture.pose);
+  if (was_by_order && !poses_.isByOrder()) forgetOrder();
   for (PictureWriter* writer : {pictures_.get(), drawn_.get()}) {
-    if (writer != nullptr && was_by_order) writer->setAside();
     if (writer != nullptr && poses_.wasByOrder(capture.stamp_ns))
       writer->give(capture.stamp_ns, capture.pose);
   }

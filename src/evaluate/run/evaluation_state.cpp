@@ -55,7 +55,7 @@ void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival a
   }
   StreamCounts& counts = counts_.streams.at(stream);
   const std::string& name = options_.streams[stream];
-  const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
+  const std::optional<std::int64_t> pose = poseOfImage(stamp_ns);
   ++counts.received;
   places_.noteImage(stamp_ns);
   record_files_->noteImage(stamp_ns);
@@ -183,7 +183,7 @@ void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
       record_files_->add(options_.streams.at(stream), capture, !isAskedFor(stream, capture.stamp_ns, pose));
   if (!capture.utc && !capture.utc_text.empty())
     report(
-        {"unusable", capture.pose, capture.stamp_ns, options_.streams[stream],
+        {kUnusable, capture.pose, capture.stamp_ns, options_.streams[stream],
          "utc is \"" + capture.utc_text + "\", so that nobody can tell whether its sun was set meanwhile"});
   if (places_.isBroken(options_.streams[stream], capture)) separate(capture.stamp_ns);
   if (is_first) nameOtherSuns(stream, suns_.add(options_.streams[stream], capture));
@@ -194,7 +194,7 @@ void Evaluation::State::add(const PlaceRecord& place) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_) return;
   if (!std::isfinite(place.x_m + place.y_m + place.z_m + place.yaw_deg)) {
-    report({"unusable", std::nullopt, place.stamp_ns, "pose",
+    report({kUnusable, std::nullopt, place.stamp_ns, "pose",
             "position and orientation must be finite, the orientation a quaternion of length 1; left out of "
             "path.csv"});
     return;

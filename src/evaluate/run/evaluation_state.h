@@ -93,7 +93,9 @@ class Evaluation::State {
   bool isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
   bool isLeftOut(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
   void nameOtherSuns(std::size_t stream, const std::vector<OtherSun>& others);
+  std::optional<std::int64_t> poseOfImage(std::int64_t stamp_ns);
   void learn(const CaptureRecord& capture);
+  void forgetOrder();
   void separate(std::int64_t stamp_ns);
   void leaveOutUnplaced();
   void removePictures(std::int64_t stamp_ns, std::int64_t pose);

@@ -17,6 +17,7 @@ PoseIndex::PoseIndex(double frame_rate, std::int64_t stamp_start_ns, const PoseR
 
 void PoseIndex::learn(std::int64_t stamp_ns, std::int64_t pose) {
   learnt_[stamp_ns] = pose;
+  is_by_capture_ = is_by_capture_ || !by_order_ || numbered_.count(stamp_ns) != 0;
 }
 
 void PoseIndex::remember(std::int64_t stamp_ns, std::int64_t pose) {
@@ -24,6 +25,9 @@ void PoseIndex::remember(std::int64_t stamp_ns, std::int64_t pose) {
 }
 
 void PoseIndex::settleRemembered() {
+  is_by_capture_ =
+      is_by_capture_ || std::any_of(numbered_.begin(), numbered_.end(),
+                                    [this](const auto& item) { return learnt_.count(item.first) != 0; });
   if (isByCapture()) {  // so were theirs
     numbered_.clear();
     return;
@@ -50,6 +54,7 @@ std::optional<std::int64_t> PoseIndex::byRate(std::int64_t stamp_ns) const {
 }
 
 std::optional<std::int64_t> PoseIndex::of(std::int64_t stamp_ns) {
+  if (learnt_.count(stamp_ns) != 0) is_by_capture_ = true;
   if (isByOrder()) {
     while (remembered_.count(next_) != 0) next_ += expected_.stride;
     if (numbered_.emplace(stamp_ns, next_).second) next_ += expected_.stride;
@@ -59,7 +64,7 @@ std::optional<std::int64_t> PoseIndex::of(std::int64_t stamp_ns) {
 
 std::optional<std::int64_t> PoseIndex::known(std::int64_t stamp_ns) const {
   if (hasRate()) return byRate(stamp_ns);
-  const auto& told = learnt_.empty() ? numbered_ : learnt_;
+  const auto& told = is_by_capture_ ? learnt_ : numbered_;
   const auto found = told.find(stamp_ns);
   if (found == told.end()) return std::nullopt;
   return found->second;

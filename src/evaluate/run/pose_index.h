@@ -1,6 +1,7 @@
 /// Which place along the path a stamp stands for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -11,15 +12,16 @@
 namespace sunlit::evaluate {
 
 /// Three rules, the first that applies: by `stamp_start` and `frame_rate` where a rate is given; as the
-/// captures say, once any capture came; else by the order of the stamps, as the expected poses follow each
-/// other. That is only known at the end, so that what must know a pose earlier rules it out. Numbers by order
-/// are forgotten once a capture comes: a stamp then has the pose of its own, or none.
+/// captures say, once there is one of a stamp that an image has; else by the order of the stamps, as the
+/// expected poses follow each other. That is only known at the end, so that what must know a pose earlier
+/// rules it out. Numbers by order are forgotten once captures count: a stamp then has the pose of its own, or
+/// none.
 class PoseIndex {
  public:
   /// `frame_rate` in Hz; 0: not given. `by_order`: the third rule may apply.
   PoseIndex(double frame_rate, std::int64_t stamp_start_ns, const PoseRange& expected, bool by_order);
 
-  /// A capture said so.
+  /// A capture said so: of an image, or of none, which tells nothing of any other.
   void learn(std::int64_t stamp_ns, std::int64_t pose);
   /// An earlier run said so; only used where neither rate nor capture does. Of several the first counts.
   void remember(std::int64_t stamp_ns, std::int64_t pose);
@@ -27,7 +29,8 @@ class PoseIndex {
   /// expected others: then they become ranks.
   void settleRemembered();
   /// The pose, or nothing while it is still to be learnt from a capture, and for a stamp before the start. By
-  /// order, stamps get the next number that is free as they first appear here; rank() puts that right.
+  /// order, stamps, which are those of images, get the next number that is free as they first appear here;
+  /// rank() puts that right.
   std::optional<std::int64_t> of(std::int64_t stamp_ns);
   /// All stamps are known: by order, numbers become ranks.
   void rank();
@@ -37,10 +40,12 @@ class PoseIndex {
   /// better; nothing where it was one by order, and captures tell poses by now, but not this one.
   std::optional<std::int64_t> settled(std::int64_t stamp_ns, std::int64_t number) const;
   bool hasRate() const { return frame_rate_ > 0.0; }
-  /// Numbers that of() gives are by order, as long as no capture comes.
-  bool isByOrder() const { return by_order_ && !hasRate() && learnt_.empty(); }
-  bool isByCapture() const { return !hasRate() && !learnt_.empty(); }
-  /// It was given a number by order before the first capture came.
+  /// Numbers that of() gives are by order, as long as no capture of an image comes.
+  bool isByOrder() const { return by_order_ && !hasRate() && !is_by_capture_; }
+  bool isByCapture() const { return !hasRate() && is_by_capture_; }
+  /// How many stamps captures told that are of no image, where none is.
+  std::size_t strayCaptures() const { return isByOrder() ? learnt_.size() : 0; }
+  /// It was given a number by order before captures counted.
   bool wasByOrder(std::int64_t stamp_ns) const { return isByCapture() && numbered_.count(stamp_ns) != 0; }
   /// Whether a place of one stamp counts before an earlier one of `other_ns`, of the same pose: by a rate
   /// where it is nearer to the stamp that this gives the pose, or as near and not later; else always.
@@ -53,6 +58,7 @@ class PoseIndex {
   std::int64_t stamp_start_ns_;
   PoseRange expected_;
   std::map<std::int64_t, std::int64_t> learnt_;
+  bool is_by_capture_ = false;
   bool by_order_;
   std::map<std::int64_t, std::int64_t> numbered_;  // by order
   std::set<std::int64_t> remembered_;              // numbers

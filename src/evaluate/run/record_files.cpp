@@ -145,7 +145,7 @@ std::set<std::pair<std::int64_t, std::string>> problemsOf(const std::string& kin
 std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder) {
   std::map<std::int64_t, std::int64_t> poses;
   forEachCsvRow(folder + "/problems.csv", kProblemsHeader, [&](const std::vector<std::string>& f) {
-    if (f[0] != kUnexpected && !f[1].empty() && !f[2].empty())
+    if (f[0] != kUnexpected && f[0] != kUnusable && !f[1].empty() && !f[2].empty())
       poses.emplace(parseStamp(f[2]), parsePose(f[1]));
   });
   return poses;

@@ -79,6 +79,8 @@ struct Problem {
 
 /// Problem::kind of an image of a pose that is none of those expected.
 inline constexpr const char* kUnexpected = "unexpected";
+/// Of a capture or a place, whose stamp may be that of no image.
+inline constexpr const char* kUnusable = "unusable";
 /// Of what an earlier run left out, as of other suns or two places, or had no time to: it is asked for again.
 inline constexpr const char* kLeftOutBefore = "left_out_before";
 

@@ -276,6 +276,82 @@ TEST(PosesBeforeTheFirstCapture, GiveWayToThoseThatCapturesTellARunThatGoesOn) {
   EXPECT_FALSE(hasLine(frames, "0,500.000000000,")) << frames;
 }
 
+// One of a publisher's own clock, of a camera that nobody compares, or of an image that was lost.
+TEST(CapturesOfNoImage, TellNothingOfAnyOther) {
+  for (const bool is_first : {true, false}) {
+    const TemporaryFolder folder;
+    std::string notes;
+    EvaluationCallbacks callbacks;
+    callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+    {
+      Evaluation evaluation(tenPoses(folder), callbacks);
+      if (is_first) tell(evaluation, 77, 5);
+      for (std::int64_t pose = 0; pose < 4; ++pose) evaluateStamp(evaluation, pose);
+      if (!is_first) tell(evaluation, 77, 5);
+      for (std::int64_t pose = 4; pose < kPoses; ++pose) evaluateStamp(evaluation, pose);
+      EXPECT_TRUE(evaluation.isComplete());
+      const Outcome outcome = evaluation.finish();
+      EXPECT_TRUE(outcome.isWhole()) << contentOf(folder.file("out/problems.csv"));
+      EXPECT_EQ(outcome.counts.pairs[0].evaluated, 10u);
+    }
+    EXPECT_NE(notes.find("/captures.csv: 1 stamps, none of them that of an image: poses are numbered by the "
+                         "order of their images\n"),
+              std::string::npos)
+        << notes;
+    const std::vector<std::string> files = filesOf(folder.file("out"));
+    EXPECT_EQ(files, filesOfUndisturbedRun(folder));
+    // Taken up, nothing is missing and nothing changes.
+    Evaluation again(tenPoses(folder), {});
+    EXPECT_TRUE(again.isComplete());
+    const Outcome outcome = again.finish();
+    EXPECT_TRUE(outcome.isWhole());
+    EXPECT_EQ(outcome.counts.pairs[0].resumed, 10u);
+    EXPECT_EQ(filesOf(folder.file("out")), files);
+  }
+}
+
+// Nobody knows its sun, but it says which pose it is of: none that came.
+TEST(CapturesOfNoImage, ArePlacesOfNoneWhereTheyCannotBeUsed) {
+  const TemporaryFolder folder;
+  CaptureRecord capture;
+  capture.pose = 5;
+  capture.stamp_ns = stampOf(77);
+  capture.utc_text = "yesterday";
+  for (int run = 0; run < 2; ++run) {
+    Evaluation evaluation(tenPoses(folder), {});
+    if (run == 0) {
+      evaluation.addCapture(0, capture);
+      for (std::int64_t pose = 0; pose < kPoses; ++pose) evaluateStamp(evaluation, pose);
+    }
+    const Outcome outcome = evaluation.finish();
+    EXPECT_TRUE(outcome.isWhole());
+    EXPECT_EQ(outcome.counts.pairs[0].evaluated + outcome.counts.pairs[0].resumed, 10u) << run;
+    const std::string frames = contentOf(folder.file("out/frames.csv"));
+    EXPECT_TRUE(hasLine(frames, "9,500.900000000,h04,h12,")) << frames;
+    EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "unusable,5,507.700000000,h04,"));
+  }
+}
+
+// The capture of an image comes before it, as live, and that of one numbered by order after it.
+TEST(CapturesOfNoImage, CountAsSoonAsTheirImageComes) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(unlimited(folder), {});
+  evaluateStamp(evaluation, 0);
+  tell(evaluation, 1, 21);
+  tell(evaluation, 2, 22);
+  EXPECT_EQ(evaluation.counts().completed_poses, 1u);  // by order still
+  evaluateStamp(evaluation, 1);
+  tell(evaluation, 0, 20);
+  evaluateStamp(evaluation, 2);
+  const Outcome outcome = evaluation.finish();
+  EXPECT_TRUE(outcome.isWhole()) << contentOf(folder.file("out/problems.csv"));
+  EXPECT_EQ(outcome.counts.completed_poses, 3u);
+  const std::string frames = contentOf(folder.file("out/frames.csv"));
+  for (const char* line :
+       {"20,500.000000000,h04,h12,", "21,500.100000000,h04,h12,", "22,500.200000000,h04,h12,"})
+    EXPECT_TRUE(hasLine(frames, line)) << frames;
+}
+
 // Hours of images: to count one by one up to each takes half a minute.
 TEST(PosesByOrder, AreRankedOnce) {
   constexpr std::int64_t kStamps = 100000;
