@@ -119,6 +119,7 @@ struct Called {
 template <typename Parse, typename Run>
 int runProgram(const Called& called, const Parse& parse, const Run& run) {
   image::prepareProcess();
+  keepFreedMemory();
   try {
     const auto options = parse(std::vector<std::string>(called.argv + 1, called.argv + called.argc));
     if (!options) return 0;

@@ -2,6 +2,7 @@
 // condition, or of which no capture says at which pose they were taken.
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "evaluate/run/evaluation_state.h"
@@ -12,6 +13,20 @@ namespace {
 
 constexpr const char* kSunIsMendedBy =
     " Left out; the same run again, with sun and site let alone, evaluates it";
+
+using Stamps = std::pair<std::int64_t, std::int64_t>;  // from, to
+
+bool isOutside(const Stamps& stamps, std::int64_t stamp_ns) {
+  return stamp_ns < stamps.first || stamp_ns > stamps.second;
+}
+
+// Whoever goes on with a drive sends its images again, or what follows; those of another recording would be
+// counted as more of it.
+std::string furtherDrive(const Stamps& held, std::int64_t first_ns) {
+  return " holds a drive of stamps from " + formatStamp(held.first) + " to " + formatStamp(held.second) +
+         ", and the first image is of " + formatStamp(first_ns) +
+         ": taken for more of that drive. Where it is another one, choose another output_dir";
+}
 
 }  // namespace
 
@@ -77,6 +92,11 @@ void Evaluation::State::forgetOrder() {
 // Its capture may have come before it.
 std::optional<std::int64_t> Evaluation::State::poseOfImage(std::int64_t stamp_ns) {
   const bool was_by_order = poses_.isByOrder();
+  const bool is_first = std::all_of(counts_.streams.begin(), counts_.streams.end(),
+                                    [](const StreamCounts& counts) { return counts.received == 0; });
+  const auto held = poses_.numberedStamps();
+  if (was_by_order && is_first && held && callbacks_.note && isOutside(*held, stamp_ns))
+    callbacks_.note(options_.output_dir + furtherDrive(*held, stamp_ns));
   const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
   if (was_by_order && !poses_.isByOrder()) forgetOrder();
   return pose;

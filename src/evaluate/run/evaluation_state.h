@@ -193,9 +193,7 @@ class Evaluation::State {
   std::vector<ExtremePoses> extremes_;    // by pair and detector; drawn, as the sampled poses are
   std::vector<std::pair<std::string, std::int64_t>> fallen_;  // drawn, but among the extremes no more
   std::unique_ptr<Observer> observer_;                        // where it is localised
-  AppendFile frames_file_;
-  AppendFile verified_file_;
-  AppendFile lost_file_;
+  AppendFile frames_file_, verified_file_, lost_file_;
   WorkQueue queue_;  // last, so that its threads end before what they use
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <utility>
 
 namespace sunlit::evaluate {
 
@@ -68,6 +67,11 @@ std::optional<std::int64_t> PoseIndex::known(std::int64_t stamp_ns) const {
   const auto found = told.find(stamp_ns);
   if (found == told.end()) return std::nullopt;
   return found->second;
+}
+
+std::optional<std::pair<std::int64_t, std::int64_t>> PoseIndex::numberedStamps() const {
+  if (numbered_.empty()) return std::nullopt;
+  return std::make_pair(numbered_.begin()->first, numbered_.rbegin()->first);
 }
 
 std::optional<std::int64_t> PoseIndex::settled(std::int64_t stamp_ns, std::int64_t number) const {

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "sunlit/evaluate/run/pose_range.h"
 
@@ -45,6 +46,8 @@ class PoseIndex {
   bool isByCapture() const { return !hasRate() && is_by_capture_; }
   /// How many stamps captures told that are of no image, where none is.
   std::size_t strayCaptures() const { return isByOrder() ? learnt_.size() : 0; }
+  /// The earliest and the latest stamp that have a number by order.
+  std::optional<std::pair<std::int64_t, std::int64_t>> numberedStamps() const;
   /// It was given a number by order before captures counted.
   bool wasByOrder(std::int64_t stamp_ns) const { return isByCapture() && numbered_.count(stamp_ns) != 0; }
   /// Whether a place of one stamp counts before an earlier one of `other_ns`, of the same pose: by a rate

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "sunlit/image/encoded_size.h"
@@ -31,6 +33,9 @@ std::string faultOfData(const sensor_msgs::Image& message) {
   if (message.step < row_bytes)
     return "step " + std::to_string(message.step) + " is less than a row of " + std::to_string(row_bytes) +
            ": " + std::to_string(message.width) + " pixels of " + message.encoding;
+  if (message.step % CV_ELEM_SIZE1(type) != 0)
+    return "step " + std::to_string(message.step) + " is no multiple of the " +
+           std::to_string(CV_ELEM_SIZE1(type)) + " bytes of a number of " + message.encoding;
   if (message.data.size() != bytes)
     return std::to_string(message.data.size()) + " bytes instead of " + std::to_string(bytes);
   return "";
@@ -45,7 +50,7 @@ cv::Mat numbersOf(const sensor_msgs::Image& message, const std::string& encoding
     return cv_bridge::toCvCopy(message, encoding)->image;
   sensor_msgs::Image swapped = message;
   swapped.is_bigendian = kIsBigEndian;
-  // Rows begin with a number, or OpenCV refuses them.
+  // Rows begin with a number, as faultOfData() requires.
   for (std::size_t i = 0; i + bytes <= swapped.data.size(); i += bytes)
     std::reverse(&swapped.data[i], &swapped.data[i] + bytes);
   return cv_bridge::toCvCopy(swapped, encoding)->image;
@@ -79,6 +84,30 @@ cv::Mat pictureOf(const sensor_msgs::CompressedImage& message) {
   cv::Mat rgb;
   if (!bgr.empty()) cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
   return rgb;
+}
+
+/// Depth that no camera measures is none, as what lies nowhere. A fault where most of it is such: in another
+/// unit, or of the other order of bytes, which nobody should measure a drive by.
+std::string faultOfDepth(cv::Mat& metres) {
+  constexpr float kLeast = 1e-3F, kMost = 1e6F;
+  std::size_t measured = 0, nonsense = 0;
+  float worst = 0.0F;
+  for (int row = 0; row < metres.rows; ++row) {
+    for (float *z = metres.ptr<float>(row), *end = z + metres.cols; z != end; ++z) {
+      const bool is_told = *z > 0.0F && *z < std::numeric_limits<float>::max();  // some send that for nothing
+      if (!is_told) continue;
+      ++measured;
+      if (*z >= kLeast && *z <= kMost) continue;
+      ++nonsense;
+      worst = *z;
+      *z = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  if (2 * nonsense <= measured) return "";
+  std::ostringstream fault;
+  fault << nonsense << " of " << measured << " depths are not between " << kLeast << " and " << kMost
+        << " m, as " << worst << ": 32FC1 must be metres, in the order of bytes that is_bigendian tells";
+  return fault.str();
 }
 
 }  // namespace
@@ -142,10 +171,12 @@ DecodedDepth decodeDepth(const sensor_msgs::Image& message, std::size_t max_pixe
     const cv::Mat numbers = numbersOf(message, message.encoding);
     if (is_metres) {
       decoded.metres = numbers;
+      decoded.fault = faultOfDepth(decoded.metres);
+      if (!decoded.fault.empty()) decoded.metres.release();
     } else {
       numbers.convertTo(decoded.metres, CV_32F, kMetresPerMillimetre);
     }
-  } catch (const std::exception& error) {  // of cv_bridge and of OpenCV, as for a step within a number
+  } catch (const std::exception& error) {  // of cv_bridge and of OpenCV
     decoded.fault = "depth cannot be read: " + std::string(error.what());
   }
   return decoded;

@@ -38,8 +38,8 @@ struct DecodedDepth {
   std::string fault;
 };
 
-/// Encodings 32FC1, m, and 16UC1, mm with 0 for nothing (REP-118), in either order of bytes. All else is a
-/// fault, as above.
+/// Encodings 32FC1, m, and 16UC1, mm with 0 for nothing (REP-118), in either order of bytes. What lies
+/// outside of 1 mm to 1000 km is nothing, too, and a fault where most is such. All else is a fault, as above.
 DecodedDepth decodeDepth(const sensor_msgs::Image& message, std::size_t max_pixels);
 
 }  // namespace sunlit::ros_interface

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "ros/render/input_log.h"
+#include "sunlit/quantity/memory.h"
 #include "sunlit/studio/other_site.h"
 
 namespace sunlit::ros_interface {
@@ -145,6 +146,7 @@ const light::Illumination& Streams::lightOf(Stream& stream, const SkyBodies& bod
   studio_.stopwatch().measure("daylight", stream.name, [&] {
     const bool drifts = sky::moves(stream.weather) && stream.weather.clock_s != stamp.toSec();
     if (stream.light && shineAlike(stream.lit_by, bodies) && !drifts) return;
+    if (stream.light) keepFreedMemory();  // a sky that moves needs as much each time
     stream.weather.clock_s = stamp.toSec();
     const studio::SkyBodies in_sky = inSky(bodies);
     const std::size_t state = stream.setting.state;

@@ -46,8 +46,41 @@ TEST(Messages, ADepthImageWhoseRowsBeginWithinANumberIsAFault) {
     message.data.resize(std::size_t{2} * step);
     const DecodedDepth decoded = decodeDepth(message, 100);
     EXPECT_TRUE(decoded.metres.empty());
-    EXPECT_EQ(decoded.fault.rfind("depth cannot be read: ", 0), 0u) << decoded.fault;
+    EXPECT_EQ(decoded.fault, encoding == std::string("16UC1")
+                                 ? "step 7 is no multiple of the 2 bytes of a number of 16UC1"
+                                 : "step 14 is no multiple of the 4 bytes of a number of 32FC1");
   }
+}
+
+TEST(Messages, AnImageWhoseRowsBeginWithinANumberIsAFault) {
+  sensor_msgs::Image message;
+  message.encoding = "mono16";
+  message.width = 3;
+  message.height = 2;
+  message.step = 7;
+  message.data.resize(14);
+  EXPECT_EQ(decode(message, 100).fault, "step 7 is no multiple of the 2 bytes of a number of mono16");
+}
+
+TEST(Messages, DepthThatNoCameraMeasuresIsNone) {
+  constexpr float kNothing = std::numeric_limits<float>::max();  // as some cameras send it
+  image::DepthImage depth(3, 2);
+  depth.data = {1.5f, 1e28f, kNothing, std::numeric_limits<float>::infinity(), 5.5f, 0.0f};
+  DecodedDepth decoded = decodeDepth(*toImageMessage(depth, kHeader), 100);
+  ASSERT_EQ(decoded.fault, "");
+  EXPECT_FLOAT_EQ(decoded.metres.at<float>(0, 0), 1.5f);
+  EXPECT_TRUE(std::isnan(decoded.metres.at<float>(0, 1)));
+  EXPECT_FLOAT_EQ(decoded.metres.at<float>(1, 1), 5.5f);
+  depth.data = {1e28f, 1e28f, kNothing, std::numeric_limits<float>::quiet_NaN(), 5.5f, -1.0f};
+  decoded = decodeDepth(*toImageMessage(depth, kHeader), 100);
+  EXPECT_TRUE(decoded.metres.empty());
+  EXPECT_EQ(
+      decoded.fault,
+      "2 of 3 depths are not between 0.001 and 1e+06 m, as 1e+28: 32FC1 must be metres, in the order of "
+      "bytes that is_bigendian tells");
+  // Into the sky there is nothing, which is no fault.
+  depth.data.assign(6, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(decodeDepth(*toImageMessage(depth, kHeader), 100).fault, "");
 }
 
 /// One pixel of each of these numbers beside the other, of which `channels` make a pixel.

@@ -352,6 +352,31 @@ TEST(CapturesOfNoImage, CountAsSoonAsTheirImageComes) {
     EXPECT_TRUE(hasLine(frames, line)) << frames;
 }
 
+// Which was recorded at another time, and tells no poses either.
+TEST(PosesByOrder, OfAnotherDriveInTheSameFolderAreToldOf) {
+  const TemporaryFolder folder;
+  std::string notes;
+  EvaluationCallbacks callbacks;
+  callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+  const auto run = [&](const std::vector<std::int64_t>& stamps) {
+    notes.clear();
+    Evaluation evaluation(unlimited(folder), callbacks);
+    for (const std::int64_t stamp : stamps) evaluateStamp(evaluation, stamp);
+    evaluation.finish();
+    return notes;
+  };
+  const std::string told =
+      ": taken for more of that drive. Where it is another one, choose another output_dir";
+  EXPECT_EQ(run({1, 2, 3}).find(told), std::string::npos) << notes;
+  EXPECT_EQ(run({1, 2, 3, 4}).find(told), std::string::npos) << notes;  // more of it
+  EXPECT_NE(run({700, 701})
+                .find("/out holds a drive of stamps from 500.100000000 to 500.400000000, and the first image "
+                      "is of 570.000000000" +
+                      told),
+            std::string::npos)
+      << notes;
+}
+
 // Hours of images: to count one by one up to each takes half a minute.
 TEST(PosesByOrder, AreRankedOnce) {
   constexpr std::int64_t kStamps = 100000;
