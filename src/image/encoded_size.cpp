@@ -24,14 +24,18 @@ bool hasEndOfPng(const std::uint8_t* bytes, std::size_t size) {
   return false;
 }
 
-// PNG (ISO/IEC 15948), 5.2 and 11.2.2: a signature, then the chunk IHDR, which begins with width and height.
+// PNG (ISO/IEC 15948), 5.2 and 11.2.2: a signature, then the chunk IHDR: width, height, bits and, as flags,
+// whether there are colours.
 std::optional<EncodedPicture> ofPng(const std::uint8_t* bytes, std::size_t size) {
   constexpr std::array<std::uint8_t, 8> kHeader = {0, 0, 0, 13, 'I', 'H', 'D', 'R'};
-  constexpr std::size_t kEnd = 24;
+  constexpr std::size_t kEnd = 26;
+  constexpr std::uint8_t kHasColours = 2;
   if (size < kEnd || !isPng(bytes, size) ||
       !std::equal(kHeader.begin(), kHeader.end(), bytes + kPngSignature.size()))
     return std::nullopt;
-  return EncodedPicture{bigEndian(bytes + 16, 4), bigEndian(bytes + 20, 4), false, !hasEndOfPng(bytes, size)};
+  const bool is_grey = (bytes[25] & kHasColours) == 0;
+  return EncodedPicture{bigEndian(bytes + 16, 4), bigEndian(bytes + 20, 4), false, is_grey,
+                        !hasEndOfPng(bytes, size)};
 }
 
 // SOF0 … SOF15 but for DHT (C4), JPG (C8) and DAC (CC), which lie among them.
@@ -46,10 +50,10 @@ bool hasEndOfImage(const std::uint8_t* begin, const std::uint8_t* end) {
   return std::search(begin, end, kEndOfImage.begin(), kEndOfImage.end()) != end;
 }
 
-// JPEG (ITU-T T.81), annex B: segments of a marker and their length; a start of frame holds precision, height
-// and width.
+// JPEG (ITU-T T.81), annex B: segments of a marker and their length; a start of frame holds precision,
+// height, width and how many channels there are.
 std::optional<EncodedPicture> ofJpeg(const std::uint8_t* bytes, std::size_t size) {
-  constexpr std::size_t kHead = 9;  // marker, length, precision, height, width
+  constexpr std::size_t kHead = 10;  // marker, length, precision, height, width, channels
   if (size < 2 || bytes[0] != 0xFF || bytes[1] != 0xD8) return std::nullopt;
   for (std::size_t at = 2; at + kHead <= size;) {
     if (bytes[at] != 0xFF) return std::nullopt;
@@ -60,7 +64,7 @@ std::optional<EncodedPicture> ofJpeg(const std::uint8_t* bytes, std::size_t size
     }
     if (isStartOfFrame(marker)) {
       return EncodedPicture{bigEndian(bytes + at + 7, 2), bigEndian(bytes + at + 5, 2), true,
-                            !hasEndOfImage(bytes + at, bytes + size)};
+                            bytes[at + 9] == 1, !hasEndOfImage(bytes + at, bytes + size)};
     }
     at += 2 + bigEndian(bytes + at + 2, 2);
   }

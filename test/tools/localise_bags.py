@@ -4,6 +4,7 @@ import csv
 import math
 import os
 import pathlib
+import re
 import shutil
 import sys
 import tempfile
@@ -14,9 +15,11 @@ import numpy
 import rosbag
 import rospy
 import rosunit
-from geometry_msgs.msg import PoseStamped, TransformStamped
+from geometry_msgs.msg import PoseStamped, PoseWithCovariance, TransformStamped
+from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from sunlit.msg import Capture
+from tf2_msgs.msg import TFMessage
 
 from timelapse import run
 
@@ -408,6 +411,9 @@ class LocaliseBags(unittest.TestCase):
                  "rosrun image_transport republish compressedDepth makes it raw; of this kind it holds /rs/depth\n"),
                 ("pose", {"/tf/optical": TransformStamped()},
                  "the bag holds no /camera/pose, see --poses; of this kind it holds /tf/optical\n"),
+                ("pose", {"/tf": TFMessage()},
+                 "h12 at 100.000000000 and 1 more: the bag holds no /camera/pose, see --poses; /tf is not read: record the "
+                 "camera's pose of it as geometry_msgs/PoseStamped\n"),
                 ("camera_info", {}, "the bag holds no /h12/camera/camera_info, see --camera-info\n")):
             noon = self.write("noon.bag", "h12/", [0.0, 1.0], without={(lacks, k) for k in range(2)})
             with rosbag.Bag(noon, "a") as bag:
@@ -416,6 +422,28 @@ class LocaliseBags(unittest.TestCase):
             done = run("evaluate_bags", "--out", self.path("out"), "--map", noon, "--query", dusk, "--detectors", "sift")
             self.assertEqual(done.returncode, 1)
             self.assertIn(told, done.stderr)
+
+    def test_depth_and_poses_of_other_frames_than_the_images_are_told_of(self):
+        _, dusk = self.bags()
+        told = {"other": ("/camera/depth/image_raw is of depth_optical, images of color_optical (%s): taken as registered to the "
+                          "images; depth_image_proc/register makes it so", "poses of /camera/pose are of base_link, images of "
+                          "color_optical (%s): taken as those of the camera, x forward unless --poses-of says otherwise; tf "
+                          "tells where it sits on base_link"), "same": ()}
+        for kind, warnings in told.items():
+            noon, frames = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0]), self.path(kind + ".bag")
+            with rosbag.Bag(noon) as bag, rosbag.Bag(frames, "w") as tagged:
+                for topic, one, stamp in bag.read_messages():
+                    if topic == "/camera/pose":
+                        one = Odometry(header=one.header, child_frame_id="camera_link" if kind == "same" else "base_link",
+                                       pose=PoseWithCovariance(pose=one.pose))
+                    else:
+                        is_depth = topic == "/camera/depth/image_raw"
+                        one.header.frame_id = "/color_optical" if kind == "same" or not is_depth else "depth_optical"
+                    tagged.write(topic, one, stamp)
+            _, done = self.localise(kind, "--map", frames, "--query", dusk, "--detectors", "sift")
+            self.assertEqual(re.findall("^warning: (.*)$", done.stderr, re.MULTILINE), [line % frames for line in warnings])
+            self.assertEqual([row["fault"] for row in self.rows(kind, "localisation_problems.csv")],
+                             ["other_frame: " + line % frames for line in warnings])
 
     def test_an_output_that_is_a_file_is_refused_before_the_work(self):
         noon, dusk = self.bags()
@@ -677,7 +705,7 @@ class LocaliseBags(unittest.TestCase):
         self.assertIn("/h12/camera/camera_info is sensor_msgs/CameraInfo, not geometry_msgs/PoseStamped",
                       self.refused("--map", noon, "--query", dusk, "--poses", "/h12/camera/camera_info"))
         blind = self.write("blind.bag", "h20/", [0.5, 1.5], without={("camera_info", 0), ("camera_info", 1)})
-        self.assertIn("h20 at 100.000000000: the bag holds no /h20/camera/camera_info, see --camera-info",
+        self.assertIn("h20 at 100.000000000 and 1 more: the bag holds no /h20/camera/camera_info, see --camera-info",
                       self.refused("--map", noon, "--query", blind))
 
 

@@ -12,6 +12,7 @@ struct EncodedPicture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   bool is_lossy = false;      ///< JPEG
+  bool is_grey = false;       ///< of one channel, besides alpha
   bool is_cut_short = false;  ///< without its end; decoders fill up what is missing, and say nothing
 };
 

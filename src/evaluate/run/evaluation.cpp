@@ -44,12 +44,9 @@ Arrival arrivalOf(const cv::Mat& rgb) {
 
 }  // namespace
 
-void Evaluation::addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb) {
-  state_->add(stream, stamp_ns, arrivalOf(rgb));
-}
-
-void Evaluation::addLossyImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb) {
-  state_->noteLossy(stream);
+void Evaluation::addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb,
+                          const ImageTraits& traits) {
+  state_->note(stream, stamp_ns, traits);
   state_->add(stream, stamp_ns, arrivalOf(rgb));
 }
 

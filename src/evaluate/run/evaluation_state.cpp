@@ -167,11 +167,16 @@ void Evaluation::State::addLost(std::size_t stream, std::size_t images, std::int
               " images before this one are missing (lost, or left out by a throttle)"});
 }
 
-void Evaluation::State::noteLossy(std::size_t stream) {
+void Evaluation::State::note(std::size_t stream, std::int64_t stamp_ns, const ImageTraits& traits) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (is_finished_ || ++counts_.streams.at(stream).lossy > 1 || !callbacks_.note) return;
-  callbacks_.note(options_.streams[stream] +
-                  ": images are compressed with loss (JPEG): differences contain what that changed");
+  if (is_finished_) return;
+  std::vector<std::string> notes = grey_.add(options_, stream, stamp_ns, traits.is_grey);
+  if (traits.is_lossy && ++counts_.streams.at(stream).lossy == 1)
+    notes.push_back(options_.streams[stream] +
+                    ": images are compressed with loss (JPEG): differences contain what that changed");
+  for (const std::string& line : notes) {
+    if (callbacks_.note) callbacks_.note(line);
+  }
 }
 
 void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {

@@ -16,6 +16,7 @@
 #include "evaluate/files/picture_writer.h"
 #include "evaluate/run/accounted_poses.h"
 #include "evaluate/run/extreme_poses.h"
+#include "evaluate/run/grey_streams.h"
 #include "evaluate/run/observer.h"
 #include "evaluate/run/one_place.h"
 #include "evaluate/run/pose_index.h"
@@ -49,7 +50,7 @@ class Evaluation::State {
   LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
   void compareMethods(const StopToken& stop);
   void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
-  void noteLossy(std::size_t stream);  // its next image was compressed with loss
+  void note(std::size_t stream, std::int64_t stamp_ns, const ImageTraits& traits);
   const StopToken& stopToken() const { return stop_; }
   Counts counts() const;
   bool isComplete() const;
@@ -160,8 +161,7 @@ class Evaluation::State {
   EvaluationOptions options_;
   EvaluationCallbacks callbacks_;
   Comparer comparer_;
-  FramesLayout layout_;
-  FramesLayout verified_layout_;  // of the detectors verified
+  FramesLayout layout_, verified_layout_;  // of all differences, and of the detectors verified
   std::vector<std::pair<std::size_t, std::size_t>> pair_streams_;
   mutable std::mutex mutex_;
   mutable std::mutex callback_mutex_;
@@ -169,6 +169,7 @@ class Evaluation::State {
   StampSets sets_;
   OnePlace places_;
   Suns suns_;
+  GreyStreams grey_;
   std::set<std::pair<std::string, std::int64_t>> left_out_before_;  // streams and stamps
   Counts counts_;
   std::vector<PairRecord> records_;
@@ -188,9 +189,8 @@ class Evaluation::State {
   std::set<std::int64_t> sampled_;                                      // poses whose images are kept
   std::unique_ptr<RecordFiles> record_files_;
   std::unique_ptr<ProblemFile> problems_;
-  std::unique_ptr<PictureWriter> pictures_;
-  std::unique_ptr<PictureWriter> drawn_;  // where matches are verified and images kept
-  std::vector<ExtremePoses> extremes_;    // by pair and detector; drawn, as the sampled poses are
+  std::unique_ptr<PictureWriter> pictures_, drawn_;  // drawn where matches are verified and images kept
+  std::vector<ExtremePoses> extremes_;               // by pair and detector; drawn, as the sampled poses are
   std::vector<std::pair<std::string, std::int64_t>> fallen_;  // drawn, but among the extremes no more
   std::unique_ptr<Observer> observer_;                        // where it is localised
   AppendFile frames_file_, verified_file_, lost_file_;

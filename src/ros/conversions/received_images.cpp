@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <cmath>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -86,25 +87,37 @@ cv::Mat pictureOf(const sensor_msgs::CompressedImage& message) {
   return rgb;
 }
 
-/// Depth that no camera measures is none, as what lies nowhere. A fault where most of it is such: in another
-/// unit, or of the other order of bytes, which nobody should measure a drive by.
+/// Depth that no camera measures is none, as what lies nowhere. A fault where most of it is such, of the
+/// other order of bytes; and where it is of whole numbers beyond 100 m: millimetres, which nobody should
+/// measure a drive by.
 std::string faultOfDepth(cv::Mat& metres) {
-  constexpr float kLeast = 1e-3F, kMost = 1e6F;
+  constexpr float kLeast = 1e-3F, kMost = 1e6F, kBeyond = 100.0F;
   std::size_t measured = 0, nonsense = 0;
-  float worst = 0.0F;
+  float worst = 0.0F, nearest = kMost, farthest = 0.0F;
+  bool are_whole = true;
   for (int row = 0; row < metres.rows; ++row) {
     for (float *z = metres.ptr<float>(row), *end = z + metres.cols; z != end; ++z) {
       const bool is_told = *z > 0.0F && *z < std::numeric_limits<float>::max();  // some send that for nothing
       if (!is_told) continue;
       ++measured;
-      if (*z >= kLeast && *z <= kMost) continue;
+      if (*z >= kLeast && *z <= kMost) {
+        are_whole = are_whole && *z == std::trunc(*z);
+        nearest = std::min(nearest, *z);
+        farthest = std::max(farthest, *z);
+        continue;
+      }
       ++nonsense;
       worst = *z;
       *z = std::numeric_limits<float>::quiet_NaN();
     }
   }
-  if (2 * nonsense <= measured) return "";
   std::ostringstream fault;
+  if (are_whole && nearest < farthest && farthest > kBeyond) {
+    fault << "depths from " << nearest << " to " << farthest
+          << " m are whole numbers: 32FC1 must be metres; millimetres are of 16UC1";
+    return fault.str();
+  }
+  if (2 * nonsense <= measured) return "";
   fault << nonsense << " of " << measured << " depths are not between " << kLeast << " and " << kMost
         << " m, as " << worst << ": 32FC1 must be metres, in the order of bytes that is_bigendian tells";
   return fault.str();
@@ -127,6 +140,7 @@ DecodedImage decode(const sensor_msgs::Image& message, std::size_t max_pixels) {
     decoded.fault = faultOfSize(message.width, message.height, max_pixels);
     if (decoded.fault.empty()) decoded.fault = faultOfData(message);
     if (decoded.fault.empty()) decoded.rgb = numbersOf(message, sensor_msgs::image_encodings::RGB8);
+    decoded.traits.is_grey = sensor_msgs::image_encodings::isMono(message.encoding);
   } catch (const std::exception& error) {  // of cv_bridge and of OpenCV
     decoded.fault =
         "encoding \"" + message.encoding + "\" cannot be converted to rgb8: " + std::string(error.what());
@@ -141,7 +155,9 @@ DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max
     decoded.fault = "format \"" + message.format + "\" is neither PNG nor JPEG, or is cut short";
     return decoded;
   }
-  decoded.is_lossy = head->is_lossy;
+  decoded.traits.is_lossy = head->is_lossy;
+  decoded.traits.is_grey =
+      head->is_grey && !sensor_msgs::image_encodings::isBayer(encodingIn(message.format));
   decoded.fault = faultOfSize(head->width, head->height, max_pixels);
   if (head->is_cut_short) decoded.fault = "format \"" + message.format + "\": the data are cut short";
   if (!decoded.fault.empty()) return decoded;

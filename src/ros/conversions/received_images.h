@@ -9,6 +9,8 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
+#include "sunlit/evaluate/run/evaluation.h"
+
 namespace sunlit::ros_interface {
 
 /// ns since the epoch of ROS time.
@@ -19,7 +21,7 @@ ros::Time timeOf(std::int64_t nanoseconds);
 struct DecodedImage {
   cv::Mat rgb;
   std::string fault;
-  bool is_lossy = false;  ///< compressed with loss
+  evaluate::ImageTraits traits;
 };
 
 /// Whatever cv_bridge can convert to rgb8: rgb, bgr, with alpha (left out), mono, Bayer, yuv422, of 8 or 16
@@ -39,7 +41,8 @@ struct DecodedDepth {
 };
 
 /// Encodings 32FC1, m, and 16UC1, mm with 0 for nothing (REP-118), in either order of bytes. What lies
-/// outside of 1 mm to 1000 km is nothing, too, and a fault where most is such. All else is a fault, as above.
+/// outside of 1 mm to 1000 km is nothing, too, and a fault where most is such; so are whole numbers of metres
+/// beyond 100 m, which are millimetres. All else is a fault, as above.
 DecodedDepth decodeDepth(const sensor_msgs::Image& message, std::size_t max_pixels);
 
 }  // namespace sunlit::ros_interface

@@ -190,10 +190,8 @@ class BagSource {
     const std::int64_t stamp_ns = nanosecondsOf(header.stamp);
     if (!decoded.fault.empty()) {
       evaluation.addBadImage(stream, stamp_ns, decoded.fault);
-    } else if (decoded.is_lossy) {
-      evaluation.addLossyImage(stream, stamp_ns, decoded.rgb);
     } else {
-      evaluation.addImage(stream, stamp_ns, decoded.rgb);
+      evaluation.addImage(stream, stamp_ns, decoded.rgb, decoded.traits);
     }
   }
 

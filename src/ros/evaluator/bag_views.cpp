@@ -5,6 +5,7 @@
 #include <sunlit/Capture.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -23,6 +24,7 @@
 #include "sunlit/evaluate/same_place.h"
 #include "sunlit/evaluate/trajectory/trajectory.h"
 #include "sunlit/quantity/frames.h"
+#include "sunlit/ros/frame_names.h"
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
@@ -32,15 +34,15 @@ using rosbag::MessageInstance;
 template <typename Value>
 using ByStamp = std::map<std::int64_t, Value>;
 
-/// Of a message that begins with a header, whatever follows.
-std::int64_t stampOf(const MessageInstance& instance) {
+/// Of a message that begins with one, whatever follows.
+std_msgs::Header headerOf(const MessageInstance& instance) {
   std::vector<std::uint8_t> bytes(instance.size());
   ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   instance.write(out);
   std_msgs::Header header;
   ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::deserialize(in, header);
-  return nanosecondsOf(header.stamp);
+  return header;
 }
 
 /// The nearest to `stamp_ns`, the earlier of two; the end only where there is nothing.
@@ -116,6 +118,7 @@ struct BagViews::Index {
   rosbag::View view;
   std::map<std::string, std::string> held;  // types by topic
   std::string images_topic, infos_topic, captures_topic, depths_topic, poses_topic;
+  std::string images_frame, depths_frame;  // of the first of each
   ByStamp<MessageInstance> images, depths;
   ByStamp<sensor_msgs::CameraInfo> cameras;
   ByStamp<geometry_msgs::Pose> poses;
@@ -149,11 +152,13 @@ void BagViews::Index::name(const BagStream& stream, const ViewTopics& topics, co
 std::string BagViews::Index::lackOfAny(const std::string& topic, const std::string& option,
                                        const Types& types) const {
   std::set<std::string> others;
-  std::string packed;  // depth that nobody here unpacks
+  std::string packed;  // depth, or poses, that nobody here unpacks
   for (const auto& [name, type] : held) {
     if (types.count(type) > 0 && name != images_topic) others.insert(name);
     if (name == topic + "/compressedDepth")
       packed = "; " + name + " is not read: rosrun image_transport republish compressedDepth makes it raw";
+    if (type == "tf2_msgs/TFMessage" && types == typesOfPoses())
+      packed = "; " + name + " is not read: record the camera's pose of it as geometry_msgs/PoseStamped";
   }
   return "the bag holds no " + topic + ", see " + option + packed +
          (others.empty() ? "" : "; of this kind it holds " + topicsInWords(others));
@@ -185,11 +190,15 @@ void BagViews::readIndex() {
       addPose(poseMessageOf(instance));
     } else if (topic == index.images_topic) {
       requireImage(instance.getTopic(), instance.getDataType(), true);
-      const std::int64_t stamp_ns = stampOf(instance);
+      const std_msgs::Header header = headerOf(instance);
+      const std::int64_t stamp_ns = nanosecondsOf(header.stamp);
+      if (index.images.empty()) index.images_frame = withoutSlash(header.frame_id);
       if (!index.images.emplace(stamp_ns, instance).second) repeated_.push_back(stamp_ns);
     } else if (topic == index.depths_topic) {
       requireImage(instance.getTopic(), instance.getDataType(), false);
-      if (!index.depths.emplace(stampOf(instance), instance).second) ++repeated_depths_;
+      const std_msgs::Header header = headerOf(instance);
+      if (index.depths.empty()) index.depths_frame = withoutSlash(header.frame_id);
+      if (!index.depths.emplace(nanosecondsOf(header.stamp), instance).second) ++repeated_depths_;
     } else if (topic == index.infos_topic) {
       const auto message = messageOf<sensor_msgs::CameraInfo>(instance);
       index.cameras.emplace(nanosecondsOf(message->header.stamp), *message);
@@ -305,6 +314,27 @@ Eigen::Isometry3d BagViews::poseAt(std::int64_t stamp_ns) const {
 
 std::string BagViews::posesTopic() const {
   return index_->poses_topic;
+}
+
+// Whoever names a camera's body as one is believed: camera_link is that of camera_optical_frame.
+std::vector<std::string> BagViews::framesApart(bool wants_depth) const {
+  const std::string& images = index_->images_frame;
+  const std::string beside = ", images of " + images + " (" + stream_.bag + "): ";
+  std::vector<std::string> lines;
+  if (images.empty()) return lines;
+  const std::string& depths = index_->depths_frame;
+  if (wants_depth && !depths.empty() && depths != images)
+    lines.push_back(index_->depths_topic + " is of " + depths + beside +
+                    "taken as registered to the images; depth_image_proc/register makes it so");
+  const std::string& body = body_.name();
+  const bool is_camera = boost::algorithm::icontains(body, "cam") || body == images;
+  if (!body.empty() && !is_camera)
+    lines.push_back(
+        "poses of " + index_->poses_topic + " are of " + body + beside +
+        "taken as those of the camera, x forward unless --poses-of says otherwise; tf tells where "
+        "it sits on " +
+        body);
+  return lines;
 }
 
 std::string BagViews::lackOfDepth(const Entry& entry) const {

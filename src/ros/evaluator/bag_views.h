@@ -57,6 +57,9 @@ class BagViews {
   /// Of poses, each once, in the order in which they first come; with the stamp of the first.
   const std::vector<std::pair<std::string, std::int64_t>>& frames() const { return frames_; }
   std::string posesTopic() const;
+  /// Where poses, or depth where it `wants_depth`, are of another frame than the images: in words, a line
+  /// each.
+  std::vector<std::string> framesApart(bool wants_depth) const;
   /// "no camera/depth/image_raw of this stamp", or that the bag holds none, and what could take its place.
   std::string lackOfDepth(const Entry& entry) const;
 

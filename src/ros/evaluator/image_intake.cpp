@@ -165,10 +165,8 @@ void ImageIntake::take(std::size_t stream, const Message& message, const std::st
       ROS_WARN("%s: image of stamp %s cannot be used: %s", evaluation_.options().streams[stream].c_str(),
                textOfStamp(message.header.stamp).c_str(), decoded.fault.c_str());
       evaluation_.addBadImage(stream, stamp_ns, decoded.fault);
-    } else if (decoded.is_lossy) {
-      evaluation_.addLossyImage(stream, stamp_ns, decoded.rgb);
     } else {
-      evaluation_.addImage(stream, stamp_ns, decoded.rgb);
+      evaluation_.addImage(stream, stamp_ns, decoded.rgb, decoded.traits);
     }
   });
 }

@@ -35,6 +35,8 @@ class PoseBody {
   /// Throws std::runtime_error that names both bodies, and what keeps one, where this is another than the
   /// first. A slash in front makes no difference, and a body without a name says nothing.
   void require(const std::string& child_frame_id, const Topic& topic);
+  /// Empty: none has said so.
+  const std::string& name() const { return first_; }
 
  private:
   std::string first_;

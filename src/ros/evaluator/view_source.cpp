@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -42,6 +43,11 @@ void ViewSource::noteFrames(const BagViews& views, bool is_of_map) {
     if (warning.empty()) continue;
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
     problems_.push_back({views.stream().name, is_of_map, stamp_ns, kOtherFrame + (": " + warning), true});
+  }
+  for (const std::string& warning : views.framesApart(is_of_map)) {
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    problems_.push_back(
+        {views.stream().name, is_of_map, views.entries()[0].stamp_ns, kOtherFrame + (": " + warning), true});
   }
 }
 
@@ -119,12 +125,19 @@ std::string ViewSource::problemsInWords() const {
   for (const evaluate::LocalisationProblem& problem : all) images.emplace(problem.stream, problem.stamp_ns);
   std::string text = std::to_string(images.size()) + " images could not be used (" + options_.output_dir +
                      kProblemsFile + "): ";
-  for (std::size_t i = 0; i < std::min(all.size(), kProblemsShown); ++i) {
-    const evaluate::LocalisationProblem& problem = all[i];
-    text += (i == 0 ? "" : "; ") + problem.stream + " at " + textOfStamp(timeOf(problem.stamp_ns)) + ": " +
-            problem.fault;
+  std::vector<std::pair<const evaluate::LocalisationProblem*, std::size_t>> kinds;  // the first, how many
+  std::map<std::pair<std::string, std::string>, std::size_t> numbers;
+  for (const evaluate::LocalisationProblem& problem : all) {
+    const auto [known, is_new] = numbers.emplace(std::make_pair(problem.stream, problem.fault), kinds.size());
+    if (is_new) kinds.emplace_back(&problem, 0);
+    ++kinds[known->second].second;
   }
-  return text + (all.size() > kProblemsShown ? "; …" : "");
+  for (std::size_t i = 0; i < std::min(kinds.size(), kProblemsShown); ++i) {
+    const auto& [problem, count] = kinds[i];
+    text += (i == 0 ? "" : "; ") + problem->stream + " at " + textOfStamp(timeOf(problem->stamp_ns)) +
+            (count > 1 ? " and " + std::to_string(count - 1) + " more" : "") + ": " + problem->fault;
+  }
+  return text + (kinds.size() > kProblemsShown ? "; …" : "");
 }
 
 void ViewSource::writeProblems() const {

@@ -28,6 +28,7 @@ TEST(EncodedSize, IsThatWhichAnEncoderWasGiven) {
       EXPECT_EQ(picture->width, 321u);
       EXPECT_EQ(picture->height, 123u);
       EXPECT_EQ(picture->is_lossy, ending == ".jpg");
+      EXPECT_EQ(picture->is_grey, type == CV_8UC1);
       EXPECT_FALSE(picture->is_cut_short);
     }
   }
@@ -40,13 +41,13 @@ TEST(EncodedSize, IsNoneOfOtherBytesAndOfAHeadCutShort) {
   EXPECT_FALSE(of({0xFF, 0xD8, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}));
   EXPECT_FALSE(of(encoded(".bmp", 8, 8)));
   const auto png = encoded(".png", 8, 8);
-  EXPECT_FALSE(of({png.begin(), png.begin() + 23}));
-  EXPECT_TRUE(of({png.begin(), png.begin() + 24}));
+  EXPECT_FALSE(of({png.begin(), png.begin() + 25}));
+  EXPECT_TRUE(of({png.begin(), png.begin() + 26}));
 }
 
 TEST(EncodedSize, TellsWhetherAPngIsWhole) {
   const auto png = encoded(".png", 8, 8);
-  for (std::size_t size = 24; size < png.size(); ++size)
+  for (std::size_t size = 26; size < png.size(); ++size)
     EXPECT_TRUE(of({png.begin(), png.begin() + static_cast<std::ptrdiff_t>(size)})->is_cut_short) << size;
   auto filled = png;
   filled.resize(filled.size() + 7, 0);

@@ -78,6 +78,12 @@ TEST(Messages, DepthThatNoCameraMeasuresIsNone) {
       decoded.fault,
       "2 of 3 depths are not between 0.001 and 1e+06 m, as 1e+28: 32FC1 must be metres, in the order of "
       "bytes that is_bigendian tells");
+  // As of a driver that makes floats of 16UC1, and no more.
+  depth.data = {1420.0f, 21873.0f, kNothing, 0.0f, 5310.0f, 1420.0f};
+  EXPECT_EQ(decodeDepth(*toImageMessage(depth, kHeader), 100).fault,
+            "depths from 1420 to 21873 m are whole numbers: 32FC1 must be metres; millimetres are of 16UC1");
+  depth.data.assign(6, 2000.0f);  // a wall in front, or the ground from far above
+  EXPECT_EQ(decodeDepth(*toImageMessage(depth, kHeader), 100).fault, "");
   // Into the sky there is nothing, which is no fault.
   depth.data.assign(6, std::numeric_limits<float>::infinity());
   EXPECT_EQ(decodeDepth(*toImageMessage(depth, kHeader), 100).fault, "");
@@ -164,7 +170,7 @@ TEST(Messages, MosaicsInJpegHaveTheirColours) {
       raw.data[y * raw.step + x] = y % 2 == 0 && x % 2 == 0 ? 200 : y % 2 == 1 && x % 2 == 1 ? 40 : 100;
   const DecodedImage decoded = decode(compressedOf(raw, "jpeg"), 100);
   ASSERT_EQ(decoded.fault, "");
-  EXPECT_TRUE(decoded.is_lossy);
+  EXPECT_TRUE(decoded.traits.is_lossy);
   const cv::Scalar mean = cv::mean(decoded.rgb);
   EXPECT_NEAR(mean[0], 200.0, 10.0);
   EXPECT_NEAR(mean[1], 100.0, 10.0);
@@ -180,6 +186,18 @@ TEST(Messages, ThatSpeakOfAMosaicButHoldAnotherPictureAreFaults) {
   message = compressedOf(mosaicOf("bayer_rggb8", 1), "png");
   message.format = "bayer_rggb16; png compressed ";
   EXPECT_NE(decode(message, 100).fault, "");
+}
+
+TEST(Messages, ImagesOfOneChannelAreGrey) {
+  const sensor_msgs::Image grey = imageOf("mono8", 1, {"\x01"}),
+                           colour = imageOf("rgb8", 3, {"\x01", "\x01", "\x01"});
+  for (const auto& [message, is_grey] : {std::pair{grey, true}, {colour, false}}) {
+    EXPECT_EQ(decode(message, 100).traits.is_grey, is_grey);
+    EXPECT_EQ(decode(compressedOf(message, "png"), 100).traits.is_grey, is_grey);
+  }
+  const sensor_msgs::Image mosaic = mosaicOf("bayer_rggb8", 1);
+  EXPECT_FALSE(decode(mosaic, 100).traits.is_grey);
+  EXPECT_FALSE(decode(compressedOf(mosaic, "png"), 100).traits.is_grey);
 }
 
 TEST(Messages, ImagesOf8BitHaveNoOrderOfBytes) {

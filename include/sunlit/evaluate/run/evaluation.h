@@ -59,6 +59,12 @@ struct LocalisationOutcome {
   }
 };
 
+/// As what an image came.
+struct ImageTraits {
+  bool is_lossy = false;  ///< compressed with loss, as JPEG
+  bool is_grey = false;   ///< in one channel
+};
+
 /// Each is called by one thread at a time.
 struct LocaliseCallbacks {
   std::function<void(const LocalisationRow& row)> found;
@@ -81,10 +87,10 @@ class Evaluation {
   ~Evaluation();
 
   /// An image of options().streams[stream], CV_8UC3, red first. What comes after finish() is left out,
-  /// here and below; images are counted.
-  void addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb);
-  /// The same of one that was compressed with loss, as JPEG: said once for each stream, and counted.
-  void addLossyImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb);
+  /// here and below; images are counted. Said once: a stream whose images are compressed with loss, which is
+  /// counted too; one that turns grey or coloured; and a pair of a grey and a coloured one.
+  void addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb,
+                const ImageTraits& traits = {});
   /// An image that could not be decoded, and why.
   void addBadImage(std::size_t stream, std::int64_t stamp_ns, const std::string& fault);
   /// `images` of a stream are missing before that of this stamp, by their sequence numbers.

@@ -312,7 +312,7 @@ TEST(Evaluation, CountsWhatItIsToldWasLostOrCompressed) {
   callbacks.note = [&](const std::string& line) { notes.push_back(line); };
   Evaluation evaluation(optionsFor(folder), callbacks);
   for (int pose = 0; pose < 2; ++pose) {
-    evaluation.addLossyImage(0, stampOf(pose), picture(pose, 0));
+    evaluation.addImage(0, stampOf(pose), picture(pose, 0), {true, false});
     for (std::size_t s = 1; s < 3; ++s) evaluation.addImage(s, stampOf(pose), picture(pose, s));
   }
   evaluation.addLost(2, 7, stampOf(1));
@@ -325,6 +325,31 @@ TEST(Evaluation, CountsWhatItIsToldWasLostOrCompressed) {
   EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")),
                       "lost,,500.100000000,h20,\"by their sequence numbers 7 images"));
   EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("lossy: 2"), std::string::npos);
+}
+
+// A camera that switches its mode, or another one under a name; the light did not change so.
+TEST(Evaluation, SaysOnceThatAStreamTurnsGreyAndThatAPairIsOfGreyAndColour) {
+  const TemporaryFolder folder;
+  std::vector<std::string> notes;
+  EvaluationCallbacks callbacks;
+  callbacks.note = [&](const std::string& line) { notes.push_back(line); };
+  Evaluation evaluation(optionsFor(folder), callbacks);
+  const auto feed = [&](std::int64_t pose, bool is_grey) {
+    evaluation.addImage(0, stampOf(pose), picture(pose, 0), {false, is_grey});
+    for (std::size_t s = 1; s < 3; ++s) evaluation.addImage(s, stampOf(pose), picture(pose, s));
+  };
+  feed(0, false);
+  EXPECT_TRUE(notes.empty());
+  for (int pose = 1; pose < 4; ++pose) feed(pose, pose != 2);
+  EXPECT_TRUE(evaluation.finish().isWhole());
+  EXPECT_EQ(notes,
+            (std::vector<std::string>{
+                "h04: images are grey from stamp 500.100000000 on, and were in colour before: "
+                "differences contain what that changed",
+                "h04-h12: images of h04 are grey, those of h12 in colour: differences contain what that "
+                "changed",
+                "h04-h20: images of h04 are grey, those of h20 in colour: differences contain what that "
+                "changed"}));
 }
 
 TEST(Evaluation, TakesAnImageInThePlaceOfOneThatCannotBeUsedAndSaysSo) {
