@@ -190,6 +190,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
       verified_layout_(layoutOf(options_, verifiedDetectors(options_))),
       poses_(options_.frame_rate, options_.stamp_start_ns, options_.poses, !thinnedPair(options_)),
       sets_(options_.streams.size()),
+      grey_(options_, pair_streams_),
       completed_(options_.poses),
       queue_(kPosesAtOnce) {
   for (const PairSpec& pair : options_.pairs) {

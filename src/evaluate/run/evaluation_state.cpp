@@ -170,7 +170,7 @@ void Evaluation::State::addLost(std::size_t stream, std::size_t images, std::int
 void Evaluation::State::note(std::size_t stream, std::int64_t stamp_ns, const ImageTraits& traits) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_) return;
-  std::vector<std::string> notes = grey_.add(options_, stream, stamp_ns, traits.is_grey);
+  std::vector<std::string> notes = grey_.add(stream, stamp_ns, traits.is_grey);
   if (traits.is_lossy && ++counts_.streams.at(stream).lossy == 1)
     notes.push_back(options_.streams[stream] +
                     ": images are compressed with loss (JPEG): differences contain what that changed");

@@ -156,13 +156,12 @@ DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max
     return decoded;
   }
   decoded.traits.is_lossy = head->is_lossy;
-  decoded.traits.is_grey =
-      head->is_grey && !sensor_msgs::image_encodings::isBayer(encodingIn(message.format));
+  const bool is_mosaic = sensor_msgs::image_encodings::isBayer(encodingIn(message.format));
+  decoded.traits.is_grey = head->is_grey && !is_mosaic;
   decoded.fault = faultOfSize(head->width, head->height, max_pixels);
   if (head->is_cut_short) decoded.fault = "format \"" + message.format + "\": the data are cut short";
   if (!decoded.fault.empty()) return decoded;
   try {
-    const bool is_mosaic = sensor_msgs::image_encodings::isBayer(encodingIn(message.format));
     decoded.rgb = is_mosaic ? mosaicOf(message) : pictureOf(message);
     if (decoded.rgb.empty()) decoded.fault = "format \"" + message.format + "\": the data cannot be decoded";
   } catch (const std::exception& error) {  // of cv_bridge, of OpenCV and ours

@@ -38,17 +38,15 @@ std::unique_ptr<BagViews> ViewSource::open(const BagStream& stream) const {
 
 void ViewSource::noteFrames(const BagViews& views, bool is_of_map) {
   if (options_.has_frame_a_stream) frames_ = {};
-  for (const auto& [frame, stamp_ns] : views.frames()) {
-    const std::string warning = frames_.note(frame, views.posesTopic() + " of " + views.stream().bag);
-    if (warning.empty()) continue;
+  const auto warn = [&](std::int64_t stamp_ns, const std::string& warning) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
     problems_.push_back({views.stream().name, is_of_map, stamp_ns, kOtherFrame + (": " + warning), true});
+  };
+  for (const auto& [frame, stamp_ns] : views.frames()) {
+    const std::string warning = frames_.note(frame, views.posesTopic() + " of " + views.stream().bag);
+    if (!warning.empty()) warn(stamp_ns, warning);
   }
-  for (const std::string& warning : views.framesApart(is_of_map)) {
-    std::fprintf(stderr, "warning: %s\n", warning.c_str());
-    problems_.push_back(
-        {views.stream().name, is_of_map, views.entries()[0].stamp_ns, kOtherFrame + (": " + warning), true});
-  }
+  for (const std::string& warning : views.framesApart(is_of_map)) warn(views.entries()[0].stamp_ns, warning);
 }
 
 std::vector<std::size_t> ViewSource::usable(const BagViews& views, bool needs_depth) {

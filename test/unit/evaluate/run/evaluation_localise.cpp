@@ -296,8 +296,7 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   // Torn in the midst of a record, as by a kill.
   std::ofstream(folder.file("out/observations.bin"), std::ios::app) << "snltebs1";
   std::string notes;
-  EvaluationCallbacks callbacks;
-  callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+  const EvaluationCallbacks callbacks = notingTo(&notes);
   Evaluation evaluation(localising(folder), callbacks);
   EXPECT_NE(notes.find("observations.bin: 8 bytes of a torn end were left out"), std::string::npos) << notes;
   EXPECT_EQ(evaluation.counts().completed_poses, 2u);

@@ -151,8 +151,7 @@ EvaluationOptions unlimited(const TemporaryFolder& folder) {
 TEST(PosesBeforeTheFirstCapture, AreUnplacedWhereNoCaptureTellsThem) {
   const TemporaryFolder folder;
   std::string notes;
-  EvaluationCallbacks callbacks;
-  callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+  const EvaluationCallbacks callbacks = notingTo(&notes);
   Evaluation evaluation(unlimited(folder), callbacks);
   for (std::int64_t stamp = 0; stamp < 6; ++stamp) {
     evaluateStamp(evaluation, stamp);
@@ -281,8 +280,7 @@ TEST(CapturesOfNoImage, TellNothingOfAnyOther) {
   for (const bool is_first : {true, false}) {
     const TemporaryFolder folder;
     std::string notes;
-    EvaluationCallbacks callbacks;
-    callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+    const EvaluationCallbacks callbacks = notingTo(&notes);
     {
       Evaluation evaluation(tenPoses(folder), callbacks);
       if (is_first) tell(evaluation, 77, 5);
@@ -356,8 +354,7 @@ TEST(CapturesOfNoImage, CountAsSoonAsTheirImageComes) {
 TEST(PosesByOrder, OfAnotherDriveInTheSameFolderAreToldOf) {
   const TemporaryFolder folder;
   std::string notes;
-  EvaluationCallbacks callbacks;
-  callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+  const EvaluationCallbacks callbacks = notingTo(&notes);
   const auto run = [&](const std::vector<std::int64_t>& stamps) {
     notes.clear();
     Evaluation evaluation(unlimited(folder), callbacks);

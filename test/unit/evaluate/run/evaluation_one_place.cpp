@@ -58,8 +58,7 @@ TEST(OnePlace, ImagesOfOneStampButTwoPlacesAreNotComparedWheneverThatIsKnown) {
 /// path.csv of three poses of which that of stamp 1 has two places, in one of the orders in which they come.
 std::string pathOfTwoPlaces(const TemporaryFolder& folder, bool is_image_first, bool is_late,
                             std::string* notes) {
-  EvaluationCallbacks callbacks;
-  callbacks.note = [&](const std::string& line) { *notes += line + "\n"; };
+  const EvaluationCallbacks callbacks = notingTo(notes);
   Evaluation evaluation(optionsFor(folder), callbacks);
   const auto stand = [&](std::int64_t pose, double x) {
     evaluation.addPlace({stampOf(pose), x, 2.0, 1.0, 90.0});

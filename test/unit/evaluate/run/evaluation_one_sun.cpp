@@ -153,8 +153,7 @@ Outcome evaluated(const TemporaryFolder& folder, const SetMeanwhile& how, std::s
   options.poses.count = 4;
   options.frame_rate = 10.0;
   options.stamp_start_ns = stampOf(0);
-  EvaluationCallbacks callbacks;
-  if (notes != nullptr) callbacks.note = [notes](const std::string& line) { *notes += line + "\n"; };
+  const EvaluationCallbacks callbacks = notes != nullptr ? notingTo(notes) : EvaluationCallbacks();
   Evaluation evaluation(options, callbacks);
   const auto tell = [&](std::int64_t pose) {
     evaluation.addCapture(0, captureAt(pose, how.is_set && pose >= 2 ? kHour_s : -8 * kHour_s));

@@ -345,8 +345,7 @@ std::string pathOf(std::int64_t poses, const std::string& late = "00000000") {
 std::string feedPlaces(const EvaluationOptions& options, std::int64_t poses, std::int64_t late_ns,
                        bool is_killed = false) {
   std::string notes;
-  EvaluationCallbacks callbacks;
-  callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+  const EvaluationCallbacks callbacks = notingTo(&notes);
   Evaluation evaluation(options, callbacks);
   for (std::int64_t i = 0; i < 2 * poses * kPlacesAPose; ++i) {
     const std::int64_t pose = i / kPlacesAPose;

@@ -35,6 +35,13 @@ inline void feedPose(Evaluation& evaluation, std::int64_t pose) {
   }
 }
 
+/// What a run notes is added to `notes`, a line each.
+inline EvaluationCallbacks notingTo(std::string* notes) {
+  EvaluationCallbacks callbacks;
+  callbacks.note = [notes](const std::string& line) { *notes += line + "\n"; };
+  return callbacks;
+}
+
 inline bool hasLine(const std::string& text, const std::string& line) {
   return ("\n" + text).find("\n" + line) != std::string::npos;
 }
