@@ -1,1 +1,1 @@
-sunlit_bench(evaluate LIBRARIES sunlit_evaluate)
+sunlit_bench(evaluate LIBRARIES sunlit_evaluate opencv_imgcodecs)

@@ -1,1 +1,1 @@
-sunlit_bench(localise LIBRARIES sunlit_evaluate)
+sunlit_bench(localise LIBRARIES sunlit_evaluate opencv_imgcodecs)

@@ -44,18 +44,28 @@ if(SUNLIT_FUZZ)
   target_link_options(sunlit_flags INTERFACE ${sunlit_sanitizers})
 endif()
 
-# Parsing takes most of the time of compiling: what nearly all files include is parsed once for all libraries, and once for all
-# tests. Not with a compiler cache, which would need settings of its own for that.
+# Parsing takes most of the time of compiling: what many files include is parsed once for all libraries and programs, once
+# more, with ROS, for those of src/ros, and once for all tests. Not with a compiler cache, which would need settings of its
+# own for that.
 if(CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED CMAKE_DISABLE_PRECOMPILE_HEADERS)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 set(sunlit_parsed_once <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory>
-  <optional> <stdexcept> <string> <utility> <vector>)
-file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/library_headers.cpp CONTENT "")
-add_library(sunlit_library_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/library_headers.cpp)
-set_target_properties(sunlit_library_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
-target_link_libraries(sunlit_library_headers PRIVATE sunlit_flags Eigen3::Eigen)
-target_precompile_headers(sunlit_library_headers PRIVATE ${sunlit_parsed_once})
+  <opencv2/core.hpp> <optional> <stdexcept> <string> <tbb/parallel_for.h> <utility> <vector>)
+# sunlit_parse_once(NAME HEADERS <header>... LIBRARIES library...)
+# These and what nearly all files include, for targets with REUSE_FROM sunlit_NAME_headers that have the flags of `library`.
+function(sunlit_parse_once name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/${name}_headers.cpp CONTENT "")
+  add_library(sunlit_${name}_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/${name}_headers.cpp)
+  target_link_libraries(sunlit_${name}_headers PRIVATE ${ARG_LIBRARIES} Eigen3::Eigen opencv_core TBB::tbb)
+  target_precompile_headers(sunlit_${name}_headers PRIVATE ${sunlit_parsed_once} ${ARG_HEADERS})
+endfunction()
+sunlit_parse_once(library LIBRARIES sunlit_flags)
+sunlit_parse_once(ros HEADERS <ros/node_handle.h> LIBRARIES sunlit_flags ${catkin_LIBRARIES})
+target_include_directories(sunlit_ros_headers PRIVATE ${catkin_INCLUDE_DIRS})
+# Programs, too: what is parsed for position-independent code serves no other.
+set_target_properties(sunlit_library_headers sunlit_ros_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
 # For the same reason files of one library are compiled several at a time, so that names in their unnamed namespaces differ.
 # Not with a compiler cache either: whoever edits one file would compile its neighbours.
@@ -74,6 +84,18 @@ function(sunlit_together target)
   endif()
 endfunction()
 
+# sunlit_parsed(TARGET)
+# Takes the headers that are parsed once for where TARGET stands.
+function(sunlit_parsed target)
+  string(FIND ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src/ros at)
+  if(at EQUAL 0)
+    target_precompile_headers(${target} REUSE_FROM sunlit_ros_headers)
+  else()
+    target_precompile_headers(${target} REUSE_FROM sunlit_library_headers)
+  endif()
+  target_compile_options(${target} PRIVATE -fPIC)
+endfunction()
+
 # sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...])
 # The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE.
 function(sunlit_library module)
@@ -82,7 +104,7 @@ function(sunlit_library module)
   target_include_directories(sunlit_${module} PUBLIC ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(sunlit_${module} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE sunlit_flags ${ARG_PRIVATE})
   target_link_options(sunlit_${module} PRIVATE -Wl,-Bsymbolic-functions)  # no table of what it calls of its own
-  target_precompile_headers(sunlit_${module} REUSE_FROM sunlit_library_headers)
+  sunlit_parsed(sunlit_${module})
   sunlit_together(sunlit_${module})
   install(TARGETS sunlit_${module} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 endfunction()
@@ -92,6 +114,7 @@ endfunction()
 function(sunlit_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(sunlit_${name} ${ARG_SOURCES})
+  sunlit_parsed(sunlit_${name})
   sunlit_together(sunlit_${name})
   set_target_properties(sunlit_${name} PROPERTIES
     OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
@@ -111,10 +134,7 @@ target_compile_options(sunlit_test_flags INTERFACE $<$<CONFIG:Release>:-O1>)
 if(SUNLIT_GOLD)
   target_link_options(sunlit_test_flags INTERFACE -fuse-ld=gold)
 endif()
-file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/test_headers.cpp CONTENT "")
-add_library(sunlit_test_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/test_headers.cpp)
-target_link_libraries(sunlit_test_headers PRIVATE sunlit_test_flags Eigen3::Eigen ${GTEST_LIBRARIES})
-target_precompile_headers(sunlit_test_headers PRIVATE ${sunlit_parsed_once} <gtest/gtest.h>)
+sunlit_parse_once(test HEADERS <gtest/gtest.h> LIBRARIES sunlit_test_flags ${GTEST_LIBRARIES})
 
 # sunlit_test(MODULE NAME [LIBRARIES library...])
 # The unit test NAME.cpp of the current folder, run by `run_tests`. SUNLIT_SOURCE_DIR and SUNLIT_SHARED_DIR (real test

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "png_chunks.h"
+#include "sunlit/image/codecs.h"
 #include "sunlit/image/encoded_size.h"
 #include "sunlit/image/files.h"
 #include "sunlit/image/texture_files.h"
@@ -25,11 +26,9 @@ cv::Mat matOf(const Picture<Value, kChannels>& picture, int type) {
 
 /// Of channels in OpenCV's order.
 std::string encoded(const cv::Mat& channels) {
-  std::vector<std::uint8_t> bytes;
   // Level 3 is near the knee of size against time for rendered pictures.
-  if (!cv::imencode(".png", channels, bytes, {cv::IMWRITE_PNG_COMPRESSION, 3})) {
-    throw std::runtime_error("PNG encoder failed");
-  }
+  const std::vector<std::uint8_t> bytes = encodePicture(".png", channels, {cv::IMWRITE_PNG_COMPRESSION, 3});
+  if (bytes.empty()) throw std::runtime_error("PNG encoder failed");
   return {bytes.begin(), bytes.end()};
 }
 
@@ -69,10 +68,9 @@ cv::Mat decodedPng(const std::string& path, int flags) {
   const std::string bytes = readWholeFile(path);
   if (!isPng(beginOf(bytes), bytes.size())) throw std::runtime_error(path + ": read: not a PNG file");
   requireWhole(bytes, path);
-  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   cv::Mat decoded;
   try {
-    decoded = cv::imdecode(raw, flags);
+    decoded = decodePicture(beginOf(bytes), bytes.size(), flags);
   } catch (const cv::Exception& error) {
     throw std::runtime_error(path + ": read: " + error.what());
   }

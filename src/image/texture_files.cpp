@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "png_chunks.h"
+#include "sunlit/image/codecs.h"
 #include "sunlit/image/encoded_size.h"
 #include "sunlit/image/files.h"
 #include "tga.h"
@@ -145,9 +146,8 @@ cv::Mat decode(const std::uint8_t* bytes, std::size_t size, const std::string& n
   cv::Mat decoded;
   const std::vector<std::uint8_t> kept = withoutProfile(bytes, size);
   if (!kept.empty()) {
-    const cv::Mat input(1, static_cast<int>(kept.size()), CV_8UC1, const_cast<std::uint8_t*>(kept.data()));
     try {
-      decoded = cv::imdecode(input, flags);
+      decoded = decodePicture(kept.data(), kept.size(), flags);
     } catch (const cv::Exception& error) {
       throw std::runtime_error(name + ": cannot decode this picture (" + error.err + ")");
     }
@@ -350,9 +350,12 @@ GreyPicture readGreyWithin(int longest_px, const std::string& file) {
 std::string encodePng(const Rgba8Image& picture) {
   const cv::Mat rgba(picture.height, picture.width, CV_8UC4, const_cast<std::uint8_t*>(picture.data.data()));
   std::vector<std::uint8_t> bytes;
-  cv::Mat bgra;
-  if (!picture.data.empty()) cv::cvtColor(rgba, bgra, cv::COLOR_RGBA2BGRA);
-  if (bgra.empty() || !cv::imencode(".png", bgra, bytes)) {
+  if (!picture.data.empty()) {
+    cv::Mat bgra;
+    cv::cvtColor(rgba, bgra, cv::COLOR_RGBA2BGRA);
+    bytes = encodePicture(".png", bgra);
+  }
+  if (bytes.empty()) {
     throw std::runtime_error("cannot write a picture of " + std::to_string(picture.width) + " × " +
                              std::to_string(picture.height) + " px as PNG");
   }

@@ -24,6 +24,16 @@ class Programs(unittest.TestCase):
             self.assertEqual(done.returncode, 0, f"{program}: {done.stdout}")
             self.assertIn(program, done.stdout.splitlines()[0])
 
+    def test_none_loads_as_it_starts_what_reads_pictures(self):
+        """Which takes most of a start: see image/codecs.h."""
+        folder = pathlib.Path(os.environ["SUNLIT_DEVEL_DIR"], "lib", "sunlit")
+        compiled = [program for program in PROGRAMS if program != "report"]
+        for program in compiled:
+            loaded = subprocess.run(["ldd", str(folder / program)], stdout=subprocess.PIPE, text=True, check=True).stdout
+            self.assertIn("libsunlit_quantity.so", loaded)
+            if program != "timelapse":  # which writes films, too
+                self.assertNotIn("libopencv_imgcodecs", loaded, program)
+
     def test_scripts_refuse_no_folder_and_know_their_build_from_everywhere(self):
         scripts = pathlib.Path(os.environ["SUNLIT_SOURCE_DIR"], "scripts")
         # The last word stops it before it does anything.

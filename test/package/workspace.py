@@ -59,19 +59,22 @@ class Workspace(unittest.TestCase):
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout[-4000:]}")
         return done.stdout
 
-    def experiment(self, setup):
+    def experiment(self):
         """The two hours are noon against itself an hour later: enough to see that all parts run together,
         and that our models, the rover and its meshes are found."""
         port = free_port()
         self.environment["ROS_MASTER_URI"] = f"http://localhost:{port}"
-        output = self.folder / f"output_{setup}"
+        output = self.folder / "output"
         self.run_in_workspace(f"roslaunch -p {port} sunlit experiment.launch path:={WAYPOINTS} "
                               f"world:={'yard.world' if READS_SDF else WITHOUT_SDF} "
                               f"poses:={POSES} hours:='[12, 13]' differences:='[boolean_rgb, orb]' robot:=rover "
-                              f"output:={output}", setup)
+                              f"output:={output}", "install")
         self.assertIn("h12,h13,boolean_rgb", (output / "summary.csv").read_text())
         self.assertTrue((output / "report.html").exists())
-        self.run_in_workspace("rosrun sunlit report --help", setup)
+        self.run_in_workspace("rosrun sunlit report --help", "install")
+        # By a library that is loaded when there is a picture to be written.
+        self.run_in_workspace(f"rosrun sunlit snapshot --world {WITHOUT_SDF} --bounced off --size 64x48 --out it.png", "install")
+        self.assertTrue((self.folder / "it.png").exists())
 
     def test_builds_installs_and_runs(self):
         self.run_in_workspace(f"catkin_make install -j{len(os.sched_getaffinity(0))} -DPYTHON_EXECUTABLE=/usr/bin/python3 "
@@ -79,11 +82,11 @@ class Workspace(unittest.TestCase):
                               f"-DCMAKE_DISABLE_PRECOMPILE_HEADERS={os.environ.get('SUNLIT_NOT_PRECOMPILED') or 'OFF'} "
                               f"-DSUNLIT_UNITY={os.environ.get('SUNLIT_UNITY') or 'OFF'} "
                               f"-DCMAKE_CXX_COMPILER_LAUNCHER={SOURCE}/test/package/compile_once.py")
-        self.experiment("devel")
+        self.run_in_workspace("rosrun sunlit report --help", "devel")  # of all else tests start the like of it
         shutil.move(str(self.folder / "src"), str(self.folder / "src_gone"))  # the install space stands alone
         shutil.rmtree(self.folder / "devel")
         shutil.rmtree(self.folder / "build")
-        self.experiment("install")
+        self.experiment()
         # Their results stand beside ours, each by itself.
         result = "".join(word.replace("package_workspace", "launch_files_start") for word in sys.argv if word.startswith("--gtest_output="))
         self.run_in_workspace(f"/usr/bin/python3 {SOURCE}/test/ros/experiment/launch_files_start.py {result or '--text'}", "install")

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <vector>
 
+#include "sunlit/image/codecs.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -17,9 +17,8 @@ namespace {
 std::string pngOf(const std::string& path, const cv::Mat& rgb) {
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", bgr, bytes))
-    throw std::runtime_error(path + ": OpenCV cannot encode this picture");
+  const std::vector<std::uint8_t> bytes = image::encodePicture(".png", bgr);
+  if (bytes.empty()) throw std::runtime_error(path + ": OpenCV cannot encode this picture");
   return {bytes.begin(), bytes.end()};
 }
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
 #include "evaluate/files/files.h"
+#include "sunlit/image/codecs.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -56,8 +56,8 @@ void drawMatrix(const std::string& path, const PlaceMatrix& matrix) {
           std::isfinite(value) ? static_cast<std::uint8_t>(std::lround((value - least) * scale)) : 255;
     }
   }
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", picture, bytes)) throw std::runtime_error(path + ": PNG encoder failed");
+  const std::vector<std::uint8_t> bytes = image::encodePicture(".png", picture);
+  if (bytes.empty()) throw std::runtime_error(path + ": PNG encoder failed");
   image::writeFileAtomically(path, {bytes.begin(), bytes.end()});
 }
 

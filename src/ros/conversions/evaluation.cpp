@@ -1,6 +1,5 @@
 #include "ros/conversions/evaluation.h"
 
-#include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <cmath>
@@ -150,7 +149,7 @@ PairDifference messageOf(const evaluate::EvaluationOptions& options, const evalu
 }
 
 sensor_msgs::ImagePtr messageOf(const cv::Mat& rgb, const std_msgs::Header& header) {
-  return cv_bridge::CvImage(header, sensor_msgs::image_encodings::RGB8, rgb).toImageMsg();
+  return toImageMessage(rgb, sensor_msgs::image_encodings::RGB8, header);
 }
 
 Summary messageOf(const std::vector<evaluate::SummaryRow>& rows, std::size_t poses) {

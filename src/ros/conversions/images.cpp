@@ -1,6 +1,6 @@
 #include "ros/conversions/images.h"
 
-#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/fill_image.h>
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
@@ -22,7 +22,7 @@ sensor_msgs::ImagePtr packed(const image::Picture<Value, kChannels>& picture, co
                              const std::string& encoding) {
   const cv::Mat pixels(picture.height, picture.width, CV_MAKETYPE(cv::DataType<Value>::depth, kChannels),
                        const_cast<Value*>(picture.data.data()));  // only read
-  return cv_bridge::CvImage(header, encoding, pixels).toImageMsg();
+  return toImageMessage(pixels, encoding, header);
 }
 
 /// Without coefficients there is none, whatever the model is called, nor where zeros have no model.
@@ -39,6 +39,18 @@ image::Distortion distortionOf(const sensor_msgs::CameraInfo& info) {
 }
 
 }  // namespace
+
+sensor_msgs::ImagePtr toImageMessage(const cv::Mat& pixels, const std::string& encoding,
+                                     const std_msgs::Header& header) {
+  const cv::Mat whole = pixels.isContinuous() ? pixels : pixels.clone();
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  message->header = header;
+  sensor_msgs::fillImage(*message, encoding, static_cast<std::uint32_t>(whole.rows),
+                         static_cast<std::uint32_t>(whole.cols),
+                         static_cast<std::uint32_t>(whole.cols * whole.elemSize()), whole.data);
+  message->is_bigendian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+  return message;
+}
 
 sensor_msgs::ImagePtr toImageMessage(const image::Rgb8Image& picture, const std_msgs::Header& header) {
   return packed(picture, header, sensor_msgs::image_encodings::RGB8);

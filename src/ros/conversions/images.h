@@ -5,11 +5,17 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
+#include <opencv2/core/mat.hpp>
+#include <string>
+
 #include "sunlit/image/calibration.h"
 #include "sunlit/image/images.h"
 
 namespace sunlit::ros_interface {
 
+/// Of pixels that are in `encoding`.
+sensor_msgs::ImagePtr toImageMessage(const cv::Mat& pixels, const std::string& encoding,
+                                     const std_msgs::Header& header);
 /// Encoding rgb8.
 sensor_msgs::ImagePtr toImageMessage(const image::Rgb8Image& picture, const std_msgs::Header& header);
 /// Without loss; the format is named as compressed_image_transport does.

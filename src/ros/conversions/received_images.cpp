@@ -1,10 +1,8 @@
 #include "ros/conversions/received_images.h"
 
-#include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
-#include <boost/make_shared.hpp>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
@@ -12,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "ros/conversions/encodings.h"
+#include "sunlit/image/codecs.h"
 #include "sunlit/image/encoded_size.h"
 
 namespace sunlit::ros_interface {
@@ -28,7 +28,7 @@ std::string faultOfSize(std::uint64_t width, std::uint64_t height, std::size_t m
 }
 
 std::string faultOfData(const sensor_msgs::Image& message) {
-  const int type = cv_bridge::getCvType(message.encoding);
+  const int type = typeOf(message.encoding);
   const std::uint64_t row_bytes = static_cast<std::uint64_t>(message.width) * CV_ELEM_SIZE(type);
   const std::uint64_t bytes = static_cast<std::uint64_t>(message.step) * message.height;
   if (message.step < row_bytes)
@@ -46,15 +46,14 @@ std::string faultOfData(const sensor_msgs::Image& message) {
 /// they are swapped before. Throws what it and OpenCV throw.
 cv::Mat numbersOf(const sensor_msgs::Image& message, const std::string& encoding) {
   constexpr bool kIsBigEndian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
-  const std::size_t bytes = CV_ELEM_SIZE1(cv_bridge::getCvType(message.encoding));
-  if (bytes == 1 || (message.is_bigendian != 0) == kIsBigEndian)
-    return cv_bridge::toCvCopy(message, encoding)->image;
+  const std::size_t bytes = CV_ELEM_SIZE1(typeOf(message.encoding));
+  if (bytes == 1 || (message.is_bigendian != 0) == kIsBigEndian) return pixelsOf(message, encoding);
   sensor_msgs::Image swapped = message;
   swapped.is_bigendian = kIsBigEndian;
   // Rows begin with a number, as faultOfData() requires.
   for (std::size_t i = 0; i + bytes <= swapped.data.size(); i += bytes)
     std::reverse(&swapped.data[i], &swapped.data[i] + bytes);
-  return cv_bridge::toCvCopy(swapped, encoding)->image;
+  return pixelsOf(swapped, encoding);
 }
 
 /// What the camera called it, where compressed_image_transport sent it: its formats read like "rgb8; jpeg
@@ -63,24 +62,26 @@ std::string encodingIn(const std::string& format) {
   return format.substr(0, format.find(';'));
 }
 
+cv::Mat decoded(const sensor_msgs::CompressedImage& message, int flags) {
+  return image::decodePicture(message.data.data(), message.data.size(), flags);
+}
+
 /// A Bayer mosaic is compressed as it is, in one channel. Throws what cv_bridge and OpenCV throw, and
 /// std::runtime_error for what is no such mosaic.
 cv::Mat mosaicOf(const sensor_msgs::CompressedImage& message) {
   const std::string encoding = encodingIn(message.format);
-  const auto mosaic = boost::make_shared<cv_bridge::CvImage>(message.header, encoding);
-  mosaic->image = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
-  if (mosaic->image.empty()) return {};
-  const int type = cv_bridge::getCvType(encoding);
-  if (mosaic->image.type() != type)
-    throw std::runtime_error("the data are of type " + cv::typeToString(mosaic->image.type()) + ", but " +
-                             encoding + " is " + cv::typeToString(type));
-  return cv_bridge::cvtColor(mosaic, sensor_msgs::image_encodings::RGB8)->image;
+  const cv::Mat mosaic = decoded(message, cv::IMREAD_UNCHANGED);
+  if (mosaic.empty()) return {};
+  const int type = typeOf(encoding);
+  if (mosaic.type() != type)
+    throw std::runtime_error("the data are of type " + cv::typeToString(mosaic.type()) + ", but " + encoding +
+                             " is " + cv::typeToString(type));
+  return recoded(mosaic, encoding, sensor_msgs::image_encodings::RGB8);
 }
 
 /// Throws what OpenCV throws.
 cv::Mat pictureOf(const sensor_msgs::CompressedImage& message) {
-  cv::Mat bgr =
-      cv::imdecode(message.data, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+  cv::Mat bgr = decoded(message, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   if (bgr.depth() == CV_16U) bgr.convertTo(bgr, CV_8U, 255.0 / 65535.0);
   cv::Mat rgb;
   if (!bgr.empty()) cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
