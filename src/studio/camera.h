@@ -36,6 +36,8 @@ class Camera {
   /// Exposed with `ev100`, or else as it meters and the setting has it.
   Developed photograph(const Lit& lit, std::optional<double> ev100, Stopwatch* stopwatch) const;
   double meter(const Lit& lit, Stopwatch* stopwatch) const;
+  /// In `map`.
+  Eigen::Vector3d eye() const { return map_from_optical_.translation(); }
   image::DepthImage depth() const { return renderer_->depth(); }
   /// In the first state of the world, as depth() has it.
   bool seesAnything() const;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "studio/camera.h"
 #include "studio/tell.h"
 #include "studio/top_down.h"
+#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/quantity/memory.h"
 
@@ -217,13 +219,37 @@ image::DepthImage Studio::depth() {
   return stopwatch_.measure("depth", "pose", [&] { return camera_->depth(); });
 }
 
-bool Studio::seesAnything() const {
-  return camera_->seesAnything();
+namespace {
+
+/// Whether something is above `eye`, but nothing is seen beneath, whichever of a few ways down it looks.
+/// Within a block whose faces have two sides pictures are black, which is told by itself.
+bool isUnderGround(const light::Visibility& world, const Eigen::Vector3d& eye) {
+  constexpr int kWays = 3;
+  constexpr float kAside = 0.1f, kRaised_m = 1e-3f;  // not through a seam, nor past what the eye lies on
+  const Eigen::Vector3f from = eye.cast<float>();
+  for (int i = 0; i < kWays; ++i) {
+    const float turn = static_cast<float>(2.0 * kPi) * static_cast<float>(i) / kWays;
+    const Eigen::Vector3f way(kAside * std::cos(turn), kAside * std::sin(turn), -1.0f);
+    if (world.firstSeen(from + kRaised_m * Eigen::Vector3f::UnitZ(), way, 0.0f)) return false;
+  }
+  const Eigen::Vector3f up(kAside, 0.0f, 1.0f);
+  std::uint8_t is_below = 0;
+  world.occluded({&from.x(), &from.y(), &from.z(), &up.x(), &up.y(), &up.z(), 1}, &is_below);
+  return is_below != 0;
 }
 
-std::string Studio::whySeesNothing() const {
-  return "nothing of the world is in view, " + reachOf(boundsOf(world())) +
-         "; surfaces with one side do not show the other";
+}  // namespace
+
+std::optional<ViewFault> Studio::viewFault() const {
+  const auto reach = [&] { return reachOf(boundsOf(world())); };
+  if (isUnderGround(*world().visibility, camera_->eye()))
+    return ViewFault{"are under the ground, or where there is none",
+                     "nothing of the world, " + reach() +
+                         ", is seen beneath the camera, but something is above: it is under the ground, or "
+                         "there is none"};
+  if (camera_->seesAnything()) return std::nullopt;
+  return ViewFault{"see nothing of the world", "nothing of the world is in view, " + reach() +
+                                                   "; surfaces with one side do not show the other"};
 }
 
 }  // namespace sunlit::studio

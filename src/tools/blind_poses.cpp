@@ -7,24 +7,26 @@
 namespace sunlit::tools {
 
 bool warnIfBlind(const studio::Studio& studio, const std::string& where) {
-  if (studio.seesAnything()) return false;
+  const std::optional<studio::ViewFault> fault = studio.viewFault();
+  if (!fault) return false;
   ProgressLine::leave();
-  std::fprintf(stderr, "warning: %s%s\n", where.c_str(), studio.whySeesNothing().c_str());
+  std::fprintf(stderr, "warning: %s%s\n", where.c_str(), fault->reason.c_str());
   return true;
 }
 
 void BlindPoses::check(const studio::Studio& studio, std::int64_t pose) {
-  if (studio.seesAnything()) return;
-  if (poses_.empty()) warnIfBlind(studio, "from pose " + std::to_string(pose) + " ");
-  poses_.insert(pose);
+  const std::optional<studio::ViewFault> fault = studio.viewFault();
+  if (!fault) return;
+  std::set<std::int64_t>& alike = poses_[fault->poses];
+  if (alike.empty()) warnIfBlind(studio, "from pose " + std::to_string(pose) + " ");
+  alike.insert(pose);
 }
 
 void BlindPoses::tell() const {
-  if (poses_.empty()) return;
   ProgressLine::leave();
-  std::fprintf(stderr, "warning: %zu poses see nothing of the world, from number %lld to %lld\n",
-               poses_.size(), static_cast<long long>(*poses_.begin()),
-               static_cast<long long>(*poses_.rbegin()));
+  for (const auto& [what, alike] : poses_)
+    std::fprintf(stderr, "warning: %zu poses %s, from number %lld to %lld\n", alike.size(), what.c_str(),
+                 static_cast<long long>(*alike.begin()), static_cast<long long>(*alike.rbegin()));
 }
 
 }  // namespace sunlit::tools

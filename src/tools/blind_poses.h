@@ -1,7 +1,9 @@
-/// Poses from which nothing of the world is in view, which pictures alone do not tell from fog or night.
+/// Poses that look from under the ground, or at nothing of the world, which pictures alone do not tell from
+/// fog or night.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 
@@ -9,11 +11,11 @@
 
 namespace sunlit::tools {
 
-/// On stderr, where `studio` looks at nothing; `where`, which ends with a space, begins the line. Returns
-/// whether it does.
+/// On stderr, where something is amiss with what `studio` looks at; `where`, which ends with a space, begins
+/// the line. Returns whether it does.
 bool warnIfBlind(const studio::Studio& studio, const std::string& where = "");
 
-/// Of a path's poses: the first is told at once, and how many there were at the end.
+/// Of a path's poses: the first of a kind is told at once, and how many there were at the end.
 class BlindPoses {
  public:
   /// The pose that `studio` looks from.
@@ -21,7 +23,7 @@ class BlindPoses {
   void tell() const;
 
  private:
-  std::set<std::int64_t> poses_;
+  std::map<std::string, std::set<std::int64_t>> poses_;  ///< by what they do
 };
 
 }  // namespace sunlit::tools

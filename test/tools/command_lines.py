@@ -338,6 +338,10 @@ class CommandLines(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stdout, r"nothing.png: \d+ triangles in 400 x 400 x [0-9.]+ m, EV100")
         self.assertIn("warning: nothing of the world is in view, which reaches from ", done.stderr)
+        with tempfile.TemporaryDirectory() as folder:
+            done = run("snapshot", "--world", WORLD, "--bounced", "off", "--size", "32x24", "--pose", "0,0,-3", "--sun", "285,40",
+                       "--out", str(pathlib.Path(folder, "under.png")))
+        self.assertRegex(done.stderr, "^warning: nothing of the world, .* but something is above: it is under the ground, .*\n$")
 
     def test_pictures_of_nothing_are_told_of_and_counted(self):
         camera = ["--world", WORLD, "--bounced", "off", "--size", "160x120", "--supersampling", "1"]

@@ -53,6 +53,12 @@ struct StudioOptions {
   std::optional<TopDown> top_down = {};
 };
 
+/// What pictures alone do not tell from fog or night.
+struct ViewFault {
+  const char* poses;   ///< what all poses like it do: "see nothing of the world"
+  std::string reason;  ///< "nothing of the world is in view, which reaches from …"
+};
+
 /// In what, and with what, a picture is taken.
 struct Setting {
   std::size_t state = 0;  ///< number of StudioOptions::surfaces
@@ -123,11 +129,9 @@ class Studio {
                                    double ev100, const Setting& setting = {});
   /// At the moment of look(), all rows at once.
   image::DepthImage depth();
-  /// Whether anything of the world is in what look() looks at, be it no more than what blends, which has no
-  /// depth.
-  bool seesAnything() const;
-  /// What is said where it does not.
-  std::string whySeesNothing() const;
+  /// What is amiss with what look() looks at: it is from under the ground, or nothing of the world is in it,
+  /// not even what blends, which has no depth. Unset: nothing.
+  std::optional<ViewFault> viewFault() const;
 
   const light::World& world() const { return worlds_.front(); }
   /// One a state.

@@ -235,6 +235,7 @@ int EvaluatorNode::run() {
       std::rethrow_exception(fault_);
     }
     if (!is_finished_) {
+      lock_.requireInPlace();
       intake_->rethrow();
       log_.update(options_.evaluation, evaluation_->counts());
       const std::string reason = reasonToFinish();

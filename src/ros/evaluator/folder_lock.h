@@ -12,11 +12,15 @@ class FolderLock {
   /// it. A folder that cannot be made or opened is left to the one that writes there: it says so better.
   explicit FolderLock(const std::string& folder);
   ~FolderLock();
+  /// Throws std::runtime_error where the folder was removed, moved or replaced meanwhile: what is written
+  /// since then is lost, or stands elsewhere.
+  void requireInPlace() const;
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  int descriptor_ = -1;
+  std::string folder_;
+  int descriptor_ = -1;  // -1: not known
 };
 
 }  // namespace sunlit::ros_interface

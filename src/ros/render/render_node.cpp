@@ -174,9 +174,9 @@ int RenderNode::run() {
 
 void RenderNode::reportLosses() const {
   // Not through the log, which a signal has closed already.
-  if (streams_.blindPoses() > 0 && !areInputsLeftToAnother())
-    std::fprintf(stderr, "Poses that see nothing of the world: %zu of %zu\n", streams_.blindPoses(),
-                 streams_.poses());
+  for (const auto& [what, poses] : streams_.faultyPoses())
+    if (!areInputsLeftToAnother())
+      std::fprintf(stderr, "Poses that %s: %zu of %zu\n", what.c_str(), poses, streams_.poses());
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     const StreamState& state = streams_.state(i);
     if (state.black > 0)

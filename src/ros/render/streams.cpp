@@ -100,9 +100,10 @@ void Streams::take(const Shot& shot, const std::optional<Shot>& next) {
 
 void Streams::countView(const Shot& shot) {
   ++poses_;
-  if (studio_.seesAnything() || blind_poses_++ > 0) return;
+  const std::optional<studio::ViewFault> fault = studio_.viewFault();
+  if (!fault || faulty_poses_[fault->poses]++ > 0) return;
   ROS_LOG(inputLevel(), ROSCONSOLE_DEFAULT_NAME, "At pose %d %s. More like it are counted", shot.pose_index,
-          studio_.whySeesNothing().c_str());
+          fault->reason.c_str());
 }
 
 void Streams::expose(const Shot& shot) {

@@ -3,6 +3,7 @@
 
 #include <ros/node_handle.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,8 +73,8 @@ class Streams {
   /// Of conditions.
   std::size_t size() const { return streams_.size(); }
   std::size_t poses() const { return poses_; }  ///< taken
-  /// Of these, those from which nothing of the world is in view.
-  std::size_t blindPoses() const { return blind_poses_; }
+  /// Of these, those with a studio::ViewFault, by what they do.
+  const std::map<std::string, std::size_t>& faultyPoses() const { return faulty_poses_; }
   const StreamState& state(std::size_t index) const { return streams_[index]->state; }
   /// Messages of its sky that could not be used.
   std::size_t refusedSkies(std::size_t index) const { return streams_[index]->sky.refused(); }
@@ -128,7 +129,8 @@ class Streams {
   studio::Sky& sky_;
   WantedSubscribers wanted_;
   PoseOutput pose_output_;
-  std::size_t poses_ = 0, blind_poses_ = 0;
+  std::size_t poses_ = 0;
+  std::map<std::string, std::size_t> faulty_poses_;
   std::vector<std::unique_ptr<Stream>> streams_;
 };
 

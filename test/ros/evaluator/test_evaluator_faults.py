@@ -2,6 +2,7 @@
 """Everything that can go wrong with streams: 991 of 991 good pairs are evaluated, all else is counted and named."""
 import os
 import random
+import shutil
 import sys
 import tempfile
 import unittest
@@ -190,6 +191,16 @@ class TestFaults(unittest.TestCase):
         self.assertEqual(status, 3, output)
         self.assertIn('no image for 1 s', output)
         self.assertEqual({row['n'] for row in rows(self.folder.name + '/out', 'summary.csv')}, {'3'})
+
+    def test_a_folder_that_is_removed_or_moved_ends_the_run_at_once(self):
+        for take_away in (shutil.rmtree, lambda folder: os.rename(folder, folder + '_elsewhere')):
+            evaluator = self.start(poses=4)
+            send_pose(self.streams, 0)
+            self.wait_for_progress(evaluator, 1)
+            take_away(self.folder.name + '/out')
+            status, output = evaluator.wait()
+            self.assertEqual(status, 1, output)
+            self.assertIn(self.folder.name + '/out: this folder was removed, moved or replaced', output)
 
     def test_unusable_images_are_named_and_the_node_ends_with_status_3(self):
         evaluator = self.start(poses=POSES)

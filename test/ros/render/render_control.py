@@ -139,6 +139,11 @@ class RenderControl(unittest.TestCase):
         self.assertRegex(told[0], "WARN.*At pose 0 nothing of the world is in view, which reaches from .* More like it are counted")
         self.assertEqual(told[1], "Poses that see nothing of the world: 2 of 2")
         self.assertFalse([line for line in said if "is near the world" in line])
+        said = self.said_along("0,0,0\n3,0,0\n", spacing=2.0, camera_height=-3.0)
+        told = [line for line in said if "under the ground" in line]
+        self.assertEqual(len(told), 2, said)
+        self.assertRegex(told[0], "WARN.*At pose 0 nothing of the world, .* but something is above: it is under the ground")
+        self.assertEqual(told[1], "Poses that are under the ground, or where there is none: 2 of 2")
 
     def test_view_is_the_image_of_the_path_at_the_same_pose(self):
         reader = Reader(["a", "b"], node="/viewed")

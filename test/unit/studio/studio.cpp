@@ -47,18 +47,38 @@ TEST(Studio, SeesWhatBlendsToo) {
   Studio studio(options);
   studio.look(Eigen::Isometry3d::Identity());
   EXPECT_TRUE(std::isnan(*studio.depth().at(24, 16)));
-  EXPECT_TRUE(studio.seesAnything());
+  EXPECT_FALSE(studio.viewFault());
   studio.look(Eigen::Isometry3d(Eigen::Translation3d(9, 0, 0)));
-  EXPECT_FALSE(studio.seesAnything());
+  EXPECT_TRUE(studio.viewFault());
 }
 
 TEST(Studio, SaysWhereTheWorldIsThatIsNotInView) {
   Studio studio(boxes());
   const Eigen::AlignedBox3d bounds = boundsOf(studio.world());
-  EXPECT_EQ(studio.whySeesNothing(), "nothing of the world is in view, " + reachOf(bounds) +
-                                         "; surfaces with one side do not show the other");
+  studio.look(Eigen::Isometry3d(Eigen::Translation3d(5000, 0, 1)));
+  ASSERT_TRUE(studio.viewFault());
+  EXPECT_EQ(studio.viewFault()->poses, std::string("see nothing of the world"));
+  EXPECT_EQ(studio.viewFault()->reason, "nothing of the world is in view, " + reachOf(bounds) +
+                                            "; surfaces with one side do not show the other");
   EXPECT_EQ(reachOf({Eigen::Vector3d(-1.25, 592000.4, 0.0), Eigen::Vector3d(99.96, 592003.0, 2.0)}),
             "which reaches from -1.25,592000,0 to 100,592003,2 m");
+}
+
+// The boxes stand on a slab of ground between z = -1 m and 0.
+TEST(Studio, TellsACameraThatIsUnderTheGround) {
+  Studio studio(boxes());
+  const auto faultAt = [&](double x, double z) -> std::string {
+    studio.look(Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, z)));
+    const std::optional<ViewFault> fault = studio.viewFault();
+    return fault ? fault->poses : "";
+  };
+  EXPECT_EQ(faultAt(0.0, 1.0), "");
+  EXPECT_EQ(faultAt(0.0, 0.0), "") << "on the ground";
+  EXPECT_EQ(faultAt(13.0, 5.0), "") << "above a box";
+  EXPECT_EQ(faultAt(0.0, -3.0), "are under the ground, or where there is none");
+  EXPECT_NE(studio.viewFault()->reason.find("is seen beneath the camera, but something is above"),
+            std::string::npos);
+  EXPECT_EQ(faultAt(5000.0, -3.0), "see nothing of the world");
 }
 
 TEST(Studio, TellsWhatIsFarFromAWorld) {
