@@ -42,7 +42,7 @@ cv::Mat pixelsOf(const sensor_msgs::Image& message, const std::string& encoding)
 }
 
 cv::Mat recoded(const cv::Mat& pixels, const std::string& from, const std::string& to) {
-  return encodings().other(pixels, from, to);
+  return encodings().recode(pixels, from, to);
 }
 
 }  // namespace sunlit::ros_interface

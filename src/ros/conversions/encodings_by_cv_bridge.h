@@ -8,7 +8,7 @@ namespace sunlit::ros_interface {
 struct Encodings {
   decltype(&typeOf) type_of;
   decltype(&pixelsOf) pixels_of;
-  decltype(&recoded) other;
+  decltype(&recoded) recode;
 };
 
 }  // namespace sunlit::ros_interface
