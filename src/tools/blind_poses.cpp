@@ -6,27 +6,33 @@
 
 namespace sunlit::tools {
 
-bool warnIfBlind(const studio::Studio& studio, const std::string& where) {
-  const std::optional<studio::ViewFault> fault = studio.viewFault();
-  if (!fault) return false;
+namespace {
+
+void warn(const std::string& text) {
   ProgressLine::leave();
-  std::fprintf(stderr, "warning: %s%s\n", where.c_str(), fault->reason.c_str());
-  return true;
+  std::fprintf(stderr, "warning: %s\n", text.c_str());
+}
+
+}  // namespace
+
+bool warnIfBlind(const studio::Studio& studio) {
+  const std::optional<studio::ViewFault> fault = studio.viewFault();
+  if (fault) warn(fault->reason);
+  return fault.has_value();
 }
 
 void BlindPoses::check(const studio::Studio& studio, std::int64_t pose) {
   const std::optional<studio::ViewFault> fault = studio.viewFault();
   if (!fault) return;
   std::set<std::int64_t>& alike = poses_[fault->poses];
-  if (alike.empty()) warnIfBlind(studio, "from pose " + std::to_string(pose) + " ");
+  if (alike.empty()) warn("from pose " + std::to_string(pose) + " " + fault->reason);
   alike.insert(pose);
 }
 
 void BlindPoses::tell() const {
-  ProgressLine::leave();
   for (const auto& [what, alike] : poses_)
-    std::fprintf(stderr, "warning: %zu poses %s, from number %lld to %lld\n", alike.size(), what.c_str(),
-                 static_cast<long long>(*alike.begin()), static_cast<long long>(*alike.rbegin()));
+    warn(std::to_string(alike.size()) + " poses " + what + ", from number " + std::to_string(*alike.begin()) +
+         " to " + std::to_string(*alike.rbegin()));
 }
 
 }  // namespace sunlit::tools

@@ -11,9 +11,8 @@
 
 namespace sunlit::tools {
 
-/// On stderr, where something is amiss with what `studio` looks at; `where`, which ends with a space, begins
-/// the line. Returns whether it does.
-bool warnIfBlind(const studio::Studio& studio, const std::string& where = "");
+/// On stderr, where something is amiss with what `studio` looks at. Returns whether it is.
+bool warnIfBlind(const studio::Studio& studio);
 
 /// Of a path's poses: the first of a kind is told at once, and how many there were at the end.
 class BlindPoses {
