@@ -50,6 +50,12 @@ class _Loader(yaml.SafeLoader):
             raise _Ambiguous(None, None, f"a zero before {node.value.lstrip('+-')[1:]}", node.start_mark)
         return super().construct_yaml_int(node)
 
+    def construct_yaml_timestamp(self, node):
+        try:
+            return super().construct_yaml_timestamp(node)
+        except ValueError as error:
+            raise _Ambiguous(None, None, f"{node.value}, which is no date ({error})", node.start_mark) from None
+
     def construct_mapping(self, node, deep=False):
         keys = [self.construct_object(key, deep=True) for key, _ in node.value]
         twice = [key for i, key in enumerate(keys) if key in keys[:i]]
@@ -59,6 +65,7 @@ class _Loader(yaml.SafeLoader):
 
 
 _Loader.add_constructor("tag:yaml.org,2002:int", _Loader.construct_yaml_int)
+_Loader.add_constructor("tag:yaml.org,2002:timestamp", _Loader.construct_yaml_timestamp)
 
 
 def parse(name, text, allowed):
@@ -67,7 +74,7 @@ def parse(name, text, allowed):
         return yaml.load(text, Loader=_Loader)
     except _Ambiguous as error:
         raise BadArgument(name, text, f"without {error.problem}") from None
-    except (yaml.YAMLError, ValueError, RecursionError):  # of a date that is none; of very many brackets
+    except (yaml.YAMLError, ValueError, RecursionError):  # of very many brackets
         raise BadArgument(name, text, allowed) from None
 
 

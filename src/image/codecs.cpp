@@ -20,6 +20,10 @@ cv::Mat decodePicture(const std::uint8_t* bytes, std::size_t size, int flags) {
   return codecs().decode({1, static_cast<int>(size), CV_8UC1, const_cast<std::uint8_t*>(bytes)}, flags);
 }
 
+bool isDamagedJpeg(const std::uint8_t* bytes, std::size_t size) {
+  return codecs().isDamagedJpeg(bytes, size);
+}
+
 std::vector<std::uint8_t> encodePicture(const std::string& ending, const cv::Mat& pixels,
                                         const std::vector<int>& parameters) {
   std::vector<std::uint8_t> bytes;

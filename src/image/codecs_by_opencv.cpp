@@ -1,5 +1,7 @@
 #include "codecs_by_opencv.h"
 
+#include "damaged_jpeg.h"
+
 #include <opencv2/imgcodecs.hpp>
 
 namespace sunlit::image {
@@ -18,6 +20,7 @@ bool encode(const std::string& ending, const cv::Mat& pixels, const std::vector<
 }  // namespace sunlit::image
 
 const sunlit::image::Codecs* sunlitCodecs() {
-  static const sunlit::image::Codecs codecs{sunlit::image::decode, sunlit::image::encode};
+  static const sunlit::image::Codecs codecs{sunlit::image::decode, sunlit::image::encode,
+                                            sunlit::image::damagedJpeg};
   return &codecs;
 }

@@ -56,11 +56,13 @@ const std::uint8_t* beginOf(const std::string& bytes) {
   return reinterpret_cast<const std::uint8_t*>(bytes.data());
 }
 
-// Decoders fill what a cut-off file lacks with black or grey.
+// Decoders fill what a cut-off file lacks with black or grey, and what is damaged with anything.
 void requireWhole(const std::string& bytes, const std::string& path) {
   const std::optional<EncodedPicture> encoded = encodedPicture(beginOf(bytes), bytes.size());
   if (encoded ? encoded->is_cut_short : isPng(beginOf(bytes), bytes.size()))
     throw std::runtime_error(path + ": read: the file is cut off");
+  if (encoded && encoded->is_lossy && isDamagedJpeg(beginOf(bytes), bytes.size()))
+    throw std::runtime_error(path + ": read: damaged JPEG");
 }
 
 /// As `flags` of cv::imdecode() have it; not empty.

@@ -1,5 +1,7 @@
 #include "sunlit/light/transport.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -126,15 +128,20 @@ Transport::~Transport() = default;
 
 std::vector<NodeLight> Transport::relight(const sky::Daylight& day, const std::vector<float>& lamp_shares,
                                           const Visibility* visibility) const {
-  std::vector<NodeLight> light = light::relight(*data_, {day, lamp_shares, visibility});
-  data_->letGo();
+  const FindLight find = light::relight(data_, {day, lamp_shares, visibility});
+  std::vector<NodeLight> light(nodeCount());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, light.size(), 1024),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      find(range.begin(), range.end(), &light[range.begin()]);
+                    });
   return light;
 }
 
 Illumination Transport::illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares,
                                      const Visibility* visibility) const {
   Illumination light(day);
-  light.nodes = std::make_shared<const NodeLights>(relight(day, lamp_shares, visibility));
+  light.nodes =
+      std::make_shared<const NodeLights>(nodeCount(), light::relight(data_, {day, lamp_shares, visibility}));
   light.node_open = node_open_;
   light.compact_sources = compact_sources_;
   if (visibility) light.glint_nodes = glint_nodes_;

@@ -17,6 +17,9 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <regex>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "sunlit/image/files.h"
@@ -102,6 +105,19 @@ class EndsWithItsParent {
   std::thread watch_;
 };
 
+/// As __master:= or ROS_MASTER_URI tells it, of which roscpp ends the process where it is none.
+void requireMasterAddress(int argc, char** argv) {
+  const char* const told = std::getenv("ROS_MASTER_URI");
+  std::string name = "ROS_MASTER_URI", address = told != nullptr ? told : "";
+  for (int i = 1; i < argc; ++i) {
+    if (std::strncmp(argv[i], "__master:=", 10) != 0) continue;
+    name = "__master";
+    address = argv[i] + 10;
+  }
+  if (std::regex_match(address, std::regex("https?://[^/:]+:[0-9]{1,5}(/.*)?"))) return;
+  throw std::invalid_argument(name + " is \"" + address + "\", but must be as http://localhost:11311");
+}
+
 int refuseWord(const std::string& word, const std::string& name) {
   const bool help = word == "--help" || word == "-h";
   if (!help) std::fprintf(stderr, "%s: there is no option %s\n", name.c_str(), word.c_str());
@@ -119,12 +135,20 @@ int runNode(int argc, char** argv, const std::string& name, const std::function<
   std::setlocale(LC_CTYPE, "C.UTF-8");
   std::optional<EndsWithItsParent> of_roslaunch;
   if (isOfRoslaunch(argc, argv)) of_roslaunch.emplace();
-  ros::init(argc, argv, name);
-  if (argc > 1) return refuseWord(argv[1], name);  // ROS has taken what it knows
   // roscpp and its console end with the last handle: without this one, an exception that destroys the node's
   // own handles on its way here could no longer be printed.
-  std::signal(SIGTERM, onTermination);
-  const ros::NodeHandle alive;  // waits for a master
+  std::optional<ros::NodeHandle> alive;
+  // Bad names throw, of the node, its namespace and what is remapped; so far there is no log.
+  try {
+    requireMasterAddress(argc, argv);
+    ros::init(argc, argv, name);
+    if (argc > 1) return refuseWord(argv[1], name);  // ROS has taken what it knows
+    std::signal(SIGTERM, onTermination);
+    alive.emplace();  // waits for a master
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
+    return 1;
+  }
   if (of_roslaunch) of_roslaunch->haveMaster();
   try {
     return node();

@@ -126,12 +126,19 @@ std::string suggestion(const std::string& unknown, const std::set<std::string>& 
   return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
 }
 
+/// What is asked for below `key`.
+std::vector<std::string> keysBelow(const std::string& key, const std::set<std::string>& asked) {
+  std::vector<std::string> keys;
+  for (auto below = asked.lower_bound(key + "/");
+       below != asked.end() && below->compare(0, key.size() + 1, key + "/") == 0; ++below)
+    keys.push_back(below->substr(key.size() + 1));
+  return keys;
+}
+
 /// Nothing stands there, and keys below it are asked for: `{}`, or all of them are commented out.
 bool isEmptyGroup(const XmlRpcValue& value, const std::string& key, const std::set<std::string>& asked) {
   const bool is_struct = value.getType() == XmlRpcValue::TypeStruct;
-  if (value.valid() && (!is_struct || value.size() > 0)) return false;
-  const auto below = asked.lower_bound(key + "/");
-  return below != asked.end() && below->compare(0, key.size() + 1, key + "/") == 0;
+  return (!value.valid() || (is_struct && value.size() == 0)) && !keysBelow(key, asked).empty();
 }
 
 /// The first leaf of `tree` that no asked key equals or contains.
@@ -346,6 +353,10 @@ void ParameterReader::rejectUnknown() const {
   if (!layer.tree.valid()) return;
   const auto unknown = firstUnknown(layer.tree, "", layer.asked);
   if (!unknown) return;
+  if (const std::vector<std::string> keys = keysBelow(*unknown, layer.asked); !keys.empty())
+    throw std::invalid_argument("parameter " + layer.name + "/" + *unknown + " is " +
+                                quoted(*descend(layer.tree, *unknown)) +
+                                ", but must be a map with keys among " + commaList(keys));
   const std::vector<std::string> known(layer.asked.begin(), layer.asked.end());
   const std::string choice = known.empty() ? "nothing can differ here" : "known are " + commaList(known);
   throw std::invalid_argument("parameter " + layer.name + "/" + *unknown + " is unknown" +

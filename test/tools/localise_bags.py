@@ -6,8 +6,10 @@ import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import cv2
@@ -21,7 +23,7 @@ from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from sunlit.msg import Capture
 from tf2_msgs.msg import TFMessage
 
-from timelapse import run
+from timelapse import located, run
 
 WIDTH, HEIGHT, FOCAL = 320, 240, 277.0
 WALL_M = 8.0      # from the camera's line; the wall stands along it, seen by a camera that looks to its left
@@ -452,6 +454,23 @@ class LocaliseBags(unittest.TestCase):
         for drives in (["--map", noon, "--query", dusk], ["--odometry", dusk]):
             self.assertRegex(self.refused(*drives), "out: is no folder that can be written: Not a directory\n$")
         self.assertEqual(file.read_text(encoding="utf-8"), "mine")
+
+    def test_an_output_that_is_taken_away_ends_the_work(self):
+        drive = [0.1 * pose for pose in range(100)]
+        long, other = (self.write(stream + ".bag", stream + "/", drive, suns=[("2024-07-01T09:00:00.000Z", 1.0)] * len(drive))
+                       for stream in ("h12", "h20"))
+        for arguments in (["--map", long, "--query", other], ["--odometry", long], [long, other]):
+            out = self.path("out")
+            work = subprocess.Popen([located("evaluate_bags"), "--out", out, *arguments], stdout=subprocess.DEVNULL,
+                                    stderr=subprocess.PIPE, text=True)
+            while not os.path.isdir(out) and work.poll() is None:
+                time.sleep(0.001)
+            os.rename(out, out + "_moved")
+            _, said = work.communicate()
+            self.assertEqual(work.returncode, 1, said)
+            self.assertIn(out + ": this folder was removed, moved or replaced while results were written into it", said)
+            for folder in (out, out + "_moved"):  # the former where something had still to be written at once
+                shutil.rmtree(folder, ignore_errors=True)
 
     def test_poses_of_two_bodies_on_one_topic_are_refused(self):
         noon, dusk = self.bags()

@@ -130,7 +130,7 @@ class Transport {
 
  private:
   TransportOptions options_;
-  std::unique_ptr<const TransportData> data_;
+  std::shared_ptr<const TransportData> data_;
   std::shared_ptr<const std::vector<float>> node_open_;
   std::shared_ptr<const GlintNodes> glint_nodes_;                      ///< null: none
   std::shared_ptr<const std::vector<CompactSource>> compact_sources_;  ///< null: none

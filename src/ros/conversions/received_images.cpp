@@ -163,6 +163,8 @@ DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max
   if (head->is_cut_short) decoded.fault = "format \"" + message.format + "\": the data are cut short";
   if (!decoded.fault.empty()) return decoded;
   try {
+    if (head->is_lossy && image::isDamagedJpeg(message.data.data(), message.data.size()))
+      throw std::runtime_error("damaged within");
     decoded.rgb = is_mosaic ? mosaicOf(message) : pictureOf(message);
     if (decoded.rgb.empty()) decoded.fault = "format \"" + message.format + "\": the data cannot be decoded";
   } catch (const std::exception& error) {  // of cv_bridge, of OpenCV and ours

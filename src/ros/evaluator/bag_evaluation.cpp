@@ -113,9 +113,10 @@ class BagSource {
 
   const std::vector<std::unique_ptr<rosbag::Bag>>& bags() const { return bags_; }
 
-  void feed(evaluate::Evaluation& evaluation) {
+  /// Throws where the folder of `lock` was taken away meanwhile, too.
+  void feed(evaluate::Evaluation& evaluation, const FolderLock& lock) {
     try {
-      feedAll(evaluation);
+      feedAll(evaluation, lock);
     } catch (const ros::Exception&) {
       tellDamaged();
       throw;
@@ -145,7 +146,7 @@ class BagSource {
     }
   }
 
-  void feedAll(evaluate::Evaluation& evaluation) {
+  void feedAll(evaluate::Evaluation& evaluation, const FolderLock& lock) {
     for (const rosbag::MessageInstance& instance : view_) {
       const std::string topic = withSlash(instance.getTopic());
       if (const auto found = images_.find(topic); found != images_.end()) {
@@ -166,6 +167,7 @@ class BagSource {
         evaluation.addTruePose(nanosecondsOf(message->header.stamp), truePoseOf(*message));
       }
       evaluation.waitForRoom(kPosesInWork);
+      lock.requireInPlace();
       log_.update(evaluation.options(), evaluation.counts());
     }
   }
@@ -247,7 +249,7 @@ int evaluateBags(const BagEvaluationOptions& options) {
   if (source) requireSameBags(options.evaluation.output_dir, source->bags());
   evaluate::Evaluation evaluation(options.evaluation, callbacks);
   if (source) noteBags(options.evaluation.output_dir, source->bags());
-  if (source) source->feed(evaluation);
+  if (source) source->feed(evaluation, lock);
   const evaluate::Outcome outcome = evaluation.finish();
   std::printf("%zu poses in %s\n%s%s\n", outcome.counts.evaluatedPoses(),
               options.evaluation.output_dir.c_str(), summaryTable(outcome.summary).c_str(),

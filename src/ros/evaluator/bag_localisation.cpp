@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "ros/evaluator/bag_streams.h"
-#include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/progress_log.h"
 #include "ros/evaluator/result_files.h"
 #include "ros/evaluator/view_source.h"
@@ -200,7 +199,6 @@ std::vector<Field> fieldsOf(BagLocalisationOptions& options) {
 
 int localiseBags(const BagLocalisationOptions& options) {
   BagLocalisation localisation(options);
-  const FolderLock lock(options.output_dir);
   evaluate::requireNoRun(options.output_dir);
   return localisation.run();
 }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "ros/evaluator/bag_streams.h"
-#include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/progress_log.h"
 #include "ros/evaluator/result_files.h"
 #include "ros/evaluator/view_source.h"
@@ -119,10 +118,9 @@ std::set<std::string> resultsOf(const std::vector<BagStream>& streams,
 
 int odometryOfBags(const BagLocalisationOptions& options) {
   const LocalisationStreams streams = localisationStreams({}, options.odometry, options.topics);
-  const FolderLock lock(options.output_dir);
+  BagOdometry odometry(options);
   evaluate::requireNoRun(options.output_dir);
   requireOnlyOwnResults(options.output_dir, resultsOf(streams.queries, options.localisation.detectors));
-  BagOdometry odometry(options);
   for (const BagStream& stream : streams.queries) odometry.follow(stream);
   return odometry.finish();
 }

@@ -143,7 +143,7 @@ bool EvaluatorNode::isIdle() const {
 std::string EvaluatorNode::reasonToFinish() const {
   if (evaluation_->isComplete())
     return "all " + std::to_string(options_.evaluation.poses.size()) + " poses are accounted for";
-  if (isIdle()) return "no image for " + std::to_string(static_cast<int>(options_.idle_timeout_s)) + " s";
+  if (isIdle()) return "no image for " + plainText(options_.idle_timeout_s) + " s";
   return "";
 }
 
@@ -166,6 +166,8 @@ void EvaluatorNode::finish(const std::string& reason) {
   ROS_INFO("%zu poses in %s%s", outcome.counts.evaluatedPoses(), options_.evaluation.output_dir.c_str(),
            table.c_str());
   faults_ = faultsOf(evaluation_->options(), outcome);
+  if (const std::string silent = intake_->silentTopics(); !faults_.empty() && !silent.empty())
+    faults_ += "; no image came of " + silent;
   if (!faults_.empty()) ROS_ERROR("%s", faults_.c_str());
   const std::string remarks = remarksOf(evaluation_->options(), outcome.counts);
   if (!remarks.empty()) ROS_WARN("%s", remarks.c_str());

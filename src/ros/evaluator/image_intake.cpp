@@ -186,6 +186,18 @@ std::string ImageIntake::unheardStreams() const {
   return names;
 }
 
+std::string ImageIntake::silentTopics() const {
+  const evaluate::Counts counts = evaluation_.counts();
+  std::string topics;
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    if (counts.streams[s].received > 0) continue;
+    topics += (topics.empty() ? "" : ", ") +
+              node_.resolveName(imagesTopicOf(evaluation_.options().streams[s])) +
+              (senders(s) > 0 ? "" : " (nobody sends it)");
+  }
+  return topics;
+}
+
 std::string ImageIntake::unheardTruth() const {
   std::vector<const ros::Subscriber*> needed = {&places_, &depth_};
   for (const Stream& stream : streams_) needed.push_back(&stream.cameras);

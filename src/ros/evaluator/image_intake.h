@@ -57,6 +57,8 @@ class ImageIntake {
   double secondsWithoutImage() const;
   /// Those of which nobody sends images and none has come, in words; empty: none of them.
   std::string unheardStreams() const;
+  /// Topics of streams of which no image has come, in words, and which of them nobody sends; empty: of all.
+  std::string silentTopics() const;
   /// Topics of true poses, depths and cameras that nobody sends, in words; empty: none of those that are
   /// needed.
   std::string unheardTruth() const;

@@ -93,6 +93,7 @@ void ViewSource::forEach(const BagViews& views, const std::vector<std::size_t>& 
       addProblem(views.stream(), job.needs_depth, views.entries()[which[view_and_detector.first]].stamp_ns,
                  fault);
     log.update(end);
+    lock_.requireInPlace();
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ros/evaluator/bag_views.h"
+#include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/pose_frames.h"
 #include "ros/evaluator/view_topics.h"
 #include "sunlit/evaluate/localise/localisation.h"
@@ -22,13 +23,14 @@ namespace sunlit::ros_interface {
 struct ViewSourceOptions {
   ViewTopics topics;
   IntakeOptions intake;
-  std::string output_dir;           ///< of localisation_problems.csv
+  std::string output_dir;           ///< of localisation_problems.csv and all other results
   bool has_frame_a_stream = false;  ///< poses of several streams are not compared
 };
 
 class ViewSource {
  public:
-  explicit ViewSource(const ViewSourceOptions& options) : options_(options) {}
+  /// Holds output_dir for as long as it lives; throws as FolderLock does.
+  explicit ViewSource(const ViewSourceOptions& options) : options_(options), lock_(options.output_dir) {}
 
   /// Says what is read.
   std::unique_ptr<BagViews> open(const BagStream& stream) const;
@@ -36,7 +38,8 @@ class ViewSource {
   /// poses of another frame than those before are warned of.
   std::vector<std::size_t> usable(const BagViews& views, bool needs_depth);
   /// Hands on the views of `entries`, with the entries that they are of, a few at a time; those that cannot
-  /// be read are problems, as is what detectors threw. `work` as in "queries localised".
+  /// be read are problems, as is what detectors threw. `work` as in "queries localised". Throws
+  /// std::runtime_error where output_dir was taken away meanwhile.
   struct Job {
     std::string work;
     bool needs_depth = false;
@@ -65,6 +68,7 @@ class ViewSource {
   void addProblem(const BagStream& stream, bool needs_depth, std::int64_t stamp_ns, const std::string& fault);
 
   ViewSourceOptions options_;
+  FolderLock lock_;
   std::vector<evaluate::LocalisationProblem> problems_;
   std::size_t featureless_ = 0;  // of problems
   PoseFrames frames_;

@@ -100,7 +100,9 @@ class TestParameters(unittest.TestCase):
             evaluator.process.send_signal(signal.SIGINT)  # Ctrl-C
             status, output = evaluator.wait()
             self.assertEqual(status, 3, output)
-            self.assertIn('no pair of images came at all', output)
+            silent = ', '.join('/%s/camera/image_raw' % stream for stream in shipped['streams'])
+            self.assertIn('no pair of images came at all; no image came of ' + silent, output)
+            self.assertNotIn('nobody sends it', output)
             with open(self.folder.name + '/' + name + '/run.yaml') as file:
                 runs.append(yaml.safe_load(file)['settings'])
         streams.close()
@@ -112,7 +114,8 @@ class TestParameters(unittest.TestCase):
         for limit in ('1e-1', '1e-4'):
             evaluator = Evaluator(dict(self.settings, memory_limit=limit, exit_when_done=True, idle_timeout='1e-1'))
             _, limits[limit] = evaluator.wait()
-        self.assertIn('no pair of images came at all', limits['1e-1'])
+        self.assertIn('no pair of images came at all; no image came of /h04/camera/image_raw (nobody sends it), '
+                      '/h12/camera/image_raw (nobody sends it)', limits['1e-1'])
         self.assertIn('memory_limit is 0.0001, but must be from 0.001', limits['1e-4'])
 
     def test_ctrl_c_while_the_node_starts_still_writes_results(self):

@@ -131,6 +131,22 @@ class NodeWithoutMaster(unittest.TestCase):
         self.wait_for(lambda: self.master.knows("/alone"))
         return child
 
+    def test_a_name_or_address_that_cannot_be_ends_it_with_one_line(self):
+        def refused(node, words, **surroundings):
+            done = subprocess.run([located(node)] + words, env=dict(os.environ, **surroundings), stdin=subprocess.DEVNULL,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=LONG_s)
+            self.assertEqual((done.returncode, done.stdout.count("\n")), (1, 1), done.stdout)
+            self.assertTrue(done.stdout.startswith(node[:-len("_node")] + ": "), done.stdout)
+            return done.stdout
+
+        for node in NODES:
+            for word, named in (("__name:=my-node", "my-node"), ("__name:=/a/b", "/a/b"), ("a-b:=c", "a-b"), ("__ns:=x-y", "x-y")):
+                self.assertIn(named, refused(node, [word]))
+        for words, surroundings, named in (([], {"ROS_NAMESPACE": "x-y"}, "x-y"),
+                                           ([], {"ROS_MASTER_URI": "foo"}, 'ROS_MASTER_URI is "foo", but must be as http://'),
+                                           (["__master:=localhost"], {}, '__master is "localhost", but must be as http://')):
+            self.assertIn(named, refused("sun_position_node", words, **surroundings))
+
     def test_of_roslaunch_ends_with_it(self):
         for node in NODES:
             with self.subTest(node):

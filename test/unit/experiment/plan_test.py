@@ -150,7 +150,7 @@ class Arguments(unittest.TestCase):
             self.assertEqual(arguments.conditions(text, arguments.USUAL_HOURS), {"a": {**noon, **day}})
             self.assertEqual(arguments.of_sun(text, arguments.SUN), {"a": {"hour": 12, **day}})
             self.assertEqual(arguments.of_renderer(text), ["a"])
-        for wrong, part in (("2024-02-30", "conditions"), ("noon", "with a date, year-month-day"), ("12", "with a date"),
+        for wrong, part in (("2024-02-30", "without 2024-02-30, which is no date"), ("noon", "with a date, year-month-day"), ("12", "with a date"),
                             ("2024-12-21 10:00:00", "with a date"), ("2024-12-21, month: 12", "without month in a, which has a date")):
             with self.assertRaisesRegex(arguments.BadArgument, part):
                 arguments.conditions("{a: {hour: 12, date: %s}}" % wrong, arguments.USUAL_HOURS)

@@ -20,7 +20,7 @@ double onAWallAt(float x_m) {
   addPatch(&scene, 0, {x_m, x_m + 0.2f, 5.1f}, {15.1f, 14.3f, 0.0f}, {0.0f, 0.0f, 10.0f});
   addPatch(&scene, 0, {x_m - 10.0f, x_m - 10.0f, 5.0f}, {40.0f, 0.0f, 0.0f}, {0.0f, 40.0f, 0.0f});
   const World world = baked(std::move(scene));
-  const std::vector<NodeLight> nodes = relight(world.transport->data(), {uniformDay(1.0f), {}, nullptr});
+  const std::vector<NodeLight> nodes = world.transport->relight(uniformDay(1.0f));
   double sum = 0.0;
   for (const NodeLight& node : nodes)
     sum += static_cast<double>(node.irradiance[1]) / static_cast<double>(nodes.size());

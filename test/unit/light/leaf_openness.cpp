@@ -185,7 +185,8 @@ TEST(LeafOpenness, EachSideOfALeafHasLightOfItsOwn) {
   addPatch(&scene, kLeaf, {-0.5f, -0.5f, 3.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f});
   const World world = worldOf(std::move(scene));
   const auto transport = Transport::bake(world.geometry, {});
-  const NodeLights nodes(transport->relight(uniformDay(1.0f)));
+  const Illumination lit = transport->illumination(uniformDay(1.0f));
+  const NodeLights& nodes = *lit.nodes;
   const Eigen::Vector3f point(0.2f, 0.1f, 3.0f);
   const std::uint32_t leaf = triangleAt(*world.geometry, point, Eigen::Vector3f::UnitZ());
   const auto light = [&](bool up) {

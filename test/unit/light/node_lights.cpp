@@ -2,7 +2,10 @@
 #include "light/bake/samples/node_lights.h"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -49,13 +52,36 @@ TEST(NodeLights, KeepsWhatArrivesFromWhere) {
     };
     nodes.push_back({next(0.0f), {next(3.0f), next(6.0f)}});
   }
-  const NodeLights kept(nodes);
+  const NodeLights kept(nodes.size(), [&](std::size_t from, std::size_t end, NodeLight* light) {
+    std::copy(nodes.begin() + static_cast<std::ptrdiff_t>(from),
+              nodes.begin() + static_cast<std::ptrdiff_t>(end), light);
+  });
   ASSERT_EQ(kept.size(), nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {  // whole numbers up to 1024 keep their bits
     EXPECT_TRUE((kept.irradiance(i).head<3>() == nodes[i].irradiance).all());
     EXPECT_TRUE((kept.above(i).head<3>() == nodes[i].around.above).all());
     EXPECT_TRUE((kept.below(i).head<3>() == nodes[i].around.below).all());
   }
+}
+
+TEST(NodeLights, AreFoundOnceHoweverManyAskAndNotWhereNobodyDoes) {
+  constexpr std::size_t kCount = 1000, kAsked = 700;
+  std::vector<std::atomic<int>> found(kCount);
+  const NodeLights kept(kCount, [&](std::size_t first, std::size_t end, NodeLight* light) {
+    for (std::size_t n = first; n < end; ++n) {
+      ++found[n];
+      const Eigen::Array3f all = Eigen::Array3f::Constant(static_cast<float>(n));
+      light[n - first] = {all, {all, all}};
+    }
+  });
+  // Each by several threads at about the same time.
+  tbb::parallel_for(std::size_t{0}, 8 * kAsked, [&](std::size_t i) {
+    const std::size_t node = i * 577 % kAsked;
+    EXPECT_EQ(kept.below(node)[0], static_cast<float>(node));
+    EXPECT_EQ(kept.irradiance(i / 8)[2], static_cast<float>(i / 8));
+  });
+  for (std::size_t n = 0; n < kAsked; ++n) EXPECT_EQ(found[n], 1) << n;
+  for (std::size_t n = kAsked + 100; n < kCount; ++n) EXPECT_EQ(found[n], 0) << n;
 }
 
 }  // namespace

@@ -388,6 +388,36 @@ TEST(BakedLight, HasTheSameBitsOnAnyNumberOfThreads) {
   for (std::size_t i = 0; i < results[0].size(); ++i) ASSERT_TRUE(same(results[0][i], results[1][i])) << i;
 }
 
+TEST(BakedLight, IsTheSameOfANodeThatIsAskedForByItself) {
+  TransportOptions options;
+  options.rays_per_patch = 2;
+  const World world = baked(shed(), options);
+  const sky::Daylight day = onlySun(150.0, 35.0);
+  const std::vector<NodeLight> all = world.transport->relight(day, {}, world.visibility.get());
+  const Illumination light = world.transport->illumination(day, {}, world.visibility.get());
+  ASSERT_EQ(light.nodes->size(), all.size());
+  float brightest = 0.0f;
+  for (std::size_t n = all.size(); n-- > 0; n -= std::min(n, std::size_t{7})) {
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      EXPECT_EQ(light.nodes->irradiance(n)[c], PackedLight(all[n].irradiance[c]).value());
+      EXPECT_EQ(light.nodes->below(n)[c], PackedLight(all[n].around.below[c]).value());
+    }
+    brightest = std::max(brightest, all[n].irradiance[1]);
+  }
+  EXPECT_GT(brightest, 0.0f);
+}
+
+// So that what a picture looks at lies together in memory.
+TEST(BakedLight, OfNodesSideBySideIsOfSamplesSideBySide) {
+  const World world = baked(shed());
+  const LightMesh& mesh = world.transport->data().mesh;
+  std::size_t falls = 0;
+  for (std::size_t n = 1; n < mesh.nodeCount(); ++n)
+    falls += mesh.shares[mesh.first_share[n]].sample < mesh.shares[mesh.first_share[n - 1]].sample ? 1 : 0;
+  // Where samples were of no use, nodes have those of others.
+  EXPECT_LT(falls, mesh.nodeCount() / 10);
+}
+
 TEST(BakedLight, TellsTheTimeLeftOnceItCan) {
   TransportOptions options;
   options.samples = 2000;

@@ -116,6 +116,16 @@ TEST(ParameterReader, AGroupInWhichNothingStandsIsNoUnknownKey) {
   EXPECT_NE(messageOf([&] { wrong.rejectUnknown(); }).find("/node/feature is unknown"), std::string::npos);
 }
 
+TEST(ParameterReader, AValueInPlaceOfAGroupIsToldWhichKeysItMayHave) {
+  XmlRpcValue tree;
+  tree["site"] = std::string("Kazan");
+  const ParameterReader reader(tree, "/node");
+  reader.number("site/latitude", 0.0);
+  reader.number("site/longitude", 0.0);
+  EXPECT_EQ(messageOf([&] { reader.rejectUnknown(); }),
+            "parameter /node/site is \"Kazan\", but must be a map with keys among latitude, longitude");
+}
+
 TEST(ParameterReader, AKeyLikeNoOtherHasNoSuggestion) {
   XmlRpcValue tree;
   tree["colour"] = 1;

@@ -17,7 +17,7 @@ KEYS = {"Eigen3": "eigen", "TBB": "tbb", "OpenCV": "libopencv-dev", "embree3": "
         "urdfdom_model": "liburdfdom-dev", "erfa": "liberfa-dev", "erfa.h": "liberfa-dev",
         "console_bridge": "libconsole-bridge-dev", "program_options": "libboost-program-options-dev",
         "xxhash": "libxxhash-dev", "xxhash.h": "libxxhash-dev", "nlohmann_json": "nlohmann-json-dev", "OSMesa": "libosmesa6-dev",
-        "GL/osmesa.h": "libosmesa6-dev", "assimp/scene.h": "assimp", "meshoptimizer": "libmeshoptimizer-dev",
+        "GL/osmesa.h": "libosmesa6-dev", "assimp/scene.h": "assimp", "meshoptimizer": "libmeshoptimizer-dev", "JPEG": "libjpeg",
         "draco": "libdraco-dev", "draco/compression/decode.h": "libdraco-dev",
         "urdf_model/model.h": "liburdfdom-dev", "urdf_parser/urdf_parser.h": "liburdfdom-dev", "EGL": "libegl-dev", "EGL/egl.h": "libegl-dev", "GL": "libgl-dev"}
 # What Python imports, likewise.

@@ -11,7 +11,7 @@
 namespace sunlit::light {
 
 /// Goes up whenever the bake, scene::Weathering or the layout of the file changes.
-constexpr std::uint32_t kBakeVersion = 45;
+constexpr std::uint32_t kBakeVersion = 46;
 
 /// Shape, and of the looks what decides how light goes on from it.
 void addContents(const Geometry& geometry, image::ContentHash* hash);

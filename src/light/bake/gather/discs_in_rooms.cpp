@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "light/bake/gather/floor_glints.h"
+#include "light/bake/gather/links.h"
 #include "light/bake/gather/small_light.h"
 #include "light/geometry/ray_list.h"
 #include "light/patches/disc_above_horizon.h"
@@ -163,46 +164,96 @@ class DiscOnSources {
   GlassSheets glass_;
 };
 
-}  // namespace
-
-DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, const Visibility& visibility,
-                           const DiscsThroughCloud& through)
-    : data_(data) {
-  const std::size_t count = data_.rooms.sources.size();
-  struct Shining {
-    const sky::DiscLight& disc;
-    const ThroughCloud& through;
-  };
-  std::vector<Shining> shining;
-  for (const Shining& one : {Shining{day.sun(), through.sun}, Shining{day.moon(), through.moon}})
-    if (one.disc.illuminance.value.maxCoeff() > leastDisc_lx(day)) shining.push_back(one);
-  if (count == 0 || shining.empty()) return;
-  direct_.resize(count, Eigen::Array3f::Zero());
-  has_.resize(data_.sampleCount(), Eigen::Array3f::Zero());
-  sent_.resize(data_.sampleCount(), Eigen::Array4f::Zero());
-  mirrored_.resize(data_.rooms.samples.size(), Eigen::Array3f::Zero());
-  glints_.resize(data_.rooms.samples.size(), Eigen::Array3f::Zero());
-  arrived_.resize(data_.rooms.samples.size());
-  findAsked();
-  for (const auto& [disc, through_to] : shining) {
-    const DiscOnSources work(data_, disc, visibility, through_to);
-    tbb::parallel_for(std::size_t{0}, blocks(count), [&](std::size_t block) {
-      work.add(block * kOfTask, std::min(count, (block + 1) * kOfTask), &direct_);
-    });
-    startFromPatches(disc, through_to);
-    FloorGlints(data_, disc, visibility, through_to).addTo(&glints_);
-  }
-  double change = 1.0;
-  for (int bounce = 0; bounce < kMostBounces && change > kLittle; ++bounce) {
-    send();
-    change = receive();
-  }
+/// Illuminance by a sample that is seen, of those that have `sent`; the fourth number as there, but for a
+/// factor above 0. For loops over millions.
+[[gnu::always_inline]] inline Eigen::Array4f lightOf(const SampleSeen& other, const Eigen::Array4f* sent) {
+  Eigen::Array4f light = other.weight * sent[other.sample];
+  if (!other.tint.white()) light.head<3>() = other.of(sent[other.sample].head<3>());
+  return light;
 }
 
-void DiscsInRooms::findAsked() {
+/// Of sun and moon, or one of them.
+class RoomsByDiscs {
+ public:
+  explicit RoomsByDiscs(const TransportData& data);
+  /// Before follow().
+  void add(const sky::DiscLight& disc, const Visibility& visibility, const ThroughCloud& through);
+  /// Illuminance of each room's sample.
+  std::vector<Arrived> follow();
+
+ private:
+  /// Of a room: what comes from samples that have all their light at once, and which links tell of others.
+  struct Known {
+    Arrived light;
+    std::vector<std::uint32_t> others;
+    bool none = false;  ///< most are others: all links are to be asked again
+  };
+
+  void findAsked();
+  void startFromPatches(const sky::DiscLight& disc, const ThroughCloud& through);
+  void send(std::size_t source);
+  Arrived arriving(std::size_t room);
+  Arrived arrivingAgain(std::size_t room) const;
+  template <typename Arriving>
+  double receive(const Arriving& arriving);
+
+  const TransportData& data_;
+  std::vector<std::uint32_t> asked_;     ///< samples whose light matters here: rooms and what they see
+  std::vector<std::uint32_t> changing_;  ///< sources that have, or pass on, light of rooms
+  std::vector<Eigen::Array3f> direct_;   ///< of each source: luminance × π by light straight from the discs
+  std::vector<Eigen::Array3f> has_;      ///< of each sample that is asked: illuminance by surfaces, lx
+  /// Of each sample: luminance × π, and 1 where it is of a source in `changing_`, else 0.
+  std::vector<Eigen::Array4f> sent_;
+  std::vector<Eigen::Array3f> mirrored_;  ///< of each room: by way of the ground as a mirror, lx
+  std::vector<Eigen::Array3f> glints_;    ///< of each room: by way of polished floors, lx
+  std::vector<Known> known_;              ///< of each room
+  std::vector<Arrived> arrived_;          ///< of each room
+};
+
+RoomsByDiscs::RoomsByDiscs(const TransportData& data)
+    : data_(data),
+      direct_(data.rooms.sources.size(), Eigen::Array3f::Zero()),
+      has_(data.sampleCount(), Eigen::Array3f::Zero()),
+      sent_(data.sampleCount(), Eigen::Array4f::Zero()),
+      mirrored_(data.rooms.samples.size(), Eigen::Array3f::Zero()),
+      glints_(data.rooms.samples.size(), Eigen::Array3f::Zero()),
+      known_(data.rooms.samples.size()),
+      arrived_(data.rooms.samples.size()) {
+  findAsked();
+}
+
+void RoomsByDiscs::add(const sky::DiscLight& disc, const Visibility& visibility,
+                       const ThroughCloud& through) {
+  const DiscOnSources work(data_, disc, visibility, through);
+  tbb::parallel_for(std::size_t{0}, blocks(direct_.size()), [&](std::size_t block) {
+    work.add(block * kOfTask, std::min(direct_.size(), (block + 1) * kOfTask), &direct_);
+  });
+  startFromPatches(disc, through);
+  FloorGlints(data_, disc, visibility, through).addTo(&glints_);
+}
+
+std::vector<Arrived> RoomsByDiscs::follow() {
+  tbb::parallel_for(std::size_t{0}, direct_.size(), [&](std::size_t source) { send(source); });
+  double change = receive([&](std::size_t room) { return arriving(room); });
+  for (int bounce = 1; bounce < kMostBounces && change > kLittle; ++bounce) {
+    tbb::parallel_for(std::size_t{0}, changing_.size(), [&](std::size_t k) { send(changing_[k]); });
+    change = receive([&](std::size_t room) { return arrivingAgain(room); });
+  }
+  return std::move(arrived_);
+}
+
+void RoomsByDiscs::findAsked() {
   std::vector<char> asked(data_.sampleCount(), 0);
   for (const std::uint32_t sample : data_.rooms.samples) asked[sample] = 1;
-  for (const BakedRooms::Source& source : data_.rooms.sources) {
+  // So far rooms alone.
+  const auto isRoom = [&](std::uint32_t sample) { return sample != LightMesh::kNone && asked[sample] != 0; };
+  const image::KeptArray<BakedRooms::Source>& sources = data_.rooms.sources;
+  for (std::uint32_t s = 0; s < sources.size(); ++s) {
+    if (!isRoom(sources[s].sample) && !isRoom(sources[s].other)) continue;
+    changing_.push_back(s);
+    sent_[sources[s].sample][3] = 1.0f;
+  }
+  for (const BakedRooms::Source& source : sources) {
     asked[source.sample] = 1;
     if (source.other != LightMesh::kNone) asked[source.other] = 1;
   }
@@ -211,7 +262,7 @@ void DiscsInRooms::findAsked() {
 }
 
 /// Adds what the patches around the disc tell.
-void DiscsInRooms::startFromPatches(const sky::DiscLight& disc, const ThroughCloud& through) {
+void RoomsByDiscs::startFromPatches(const sky::DiscLight& disc, const ThroughCloud& through) {
   const SmallLight light(disc);
   const auto add = [&](std::uint32_t sample) {
     for (const PassedOn* part : {&data_.above, &data_.below}) {
@@ -234,32 +285,63 @@ void DiscsInRooms::startFromPatches(const sky::DiscLight& disc, const ThroughClo
   });
 }
 
-void DiscsInRooms::send() {
-  const image::KeptArray<BakedRooms::Source>& sources = data_.rooms.sources;
-  tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t s) {
-    const BakedRooms::Source& source = sources[s];
-    Eigen::Array3f sum =
-        direct_[s] + Eigen::Map<const Eigen::Array3f>(source.bounced.data()) * has_[source.sample];
-    if (source.other != LightMesh::kNone)
-      sum += Eigen::Map<const Eigen::Array3f>(source.through.data()) * has_[source.other];
-    sent_[source.sample].head<3>() = sum;
-  });
+void RoomsByDiscs::send(std::size_t number) {
+  const BakedRooms::Source& source = data_.rooms.sources[number];
+  Eigen::Array3f sum =
+      direct_[number] + Eigen::Map<const Eigen::Array3f>(source.bounced.data()) * has_[source.sample];
+  if (source.other != LightMesh::kNone)
+    sum += Eigen::Map<const Eigen::Array3f>(source.through.data()) * has_[source.other];
+  sent_[source.sample].head<3>() = sum;
 }
 
-/// From all that a room sees.
-Arrived DiscsInRooms::arriving(std::size_t room) const {
+/// From all that a room sees, of which it keeps what stays.
+Arrived RoomsByDiscs::arriving(std::size_t room) {
+  const RoomLinks links(data_.rooms, room);
+  const Eigen::Array4f* const sent = sent_.data();
+  Known known;
+  const auto sumOf = [&](std::uint32_t first, std::uint32_t end, Eigen::Array3f* stays) -> Eigen::Array3f {
+    Eigen::Array4f staying = Eigen::Array4f::Zero(), changing = Eigen::Array4f::Zero();
+    for (std::uint32_t k = first; k < end; ++k) {
+      const Eigen::Array4f light = lightOf(links.at(k), sent);
+      if (light[3] > 0.0f) {
+        changing += light;
+        known.others.push_back(k);
+      } else {
+        staying += light;
+      }
+    }
+    *stays = staying.head<3>();
+    return (staying + changing).head<3>();
+  };
+  Arrived sum;
+  sum.above = sumOf(links.first, links.below, &known.light.above);
+  sum.below = sumOf(links.below, links.end, &known.light.below);
+  known.none = known.others.size() > (links.end - links.first) / 2;
+  if (known.none) known = {{}, {}, true};
+  known_[room] = std::move(known);
+  return sum;
+}
+
+/// The same once samples of rooms have other light than before.
+Arrived RoomsByDiscs::arrivingAgain(std::size_t room) const {
+  const RoomLinks links(data_.rooms, room);
+  const Eigen::Array4f* const sent = sent_.data();
+  const Known& known = known_[room];
   Eigen::Array4f above = Eigen::Array4f::Zero(), below = Eigen::Array4f::Zero();
-  visitLinks(data_.rooms, room, [&](const SampleSeen& other, bool up) {
-    Eigen::Array4f light = other.weight * sent_[other.sample];
-    if (!other.tint.white()) light.head<3>() = other.of(sent_[other.sample].head<3>());
-    (up ? above : below) += light;
-  });
-  return {above.head<3>(), below.head<3>()};
+  if (known.none) {
+    for (std::uint32_t k = links.first; k < links.below; ++k) above += lightOf(links.at(k), sent);
+    for (std::uint32_t k = links.below; k < links.end; ++k) below += lightOf(links.at(k), sent);
+  } else {
+    for (const std::uint32_t k : known.others)
+      (k < links.below ? above : below) += lightOf(links.at(k), sent);
+  }
+  return {known.light.above + above.head<3>(), known.light.below + below.head<3>()};
 }
 
 /// Returns by how much the light of rooms has changed, as a share of it, on average over those of a block:
 /// the most of all blocks, for most of a land may be of rooms that have all their light at once.
-double DiscsInRooms::receive() {
+template <typename Arriving>
+double RoomsByDiscs::receive(const Arriving& arriving) {
   const BakedRooms& rooms = data_.rooms;
   const std::size_t count = rooms.samples.size();
   std::vector<double> changes(blocks(count), 0.0);
@@ -278,6 +360,23 @@ double DiscsInRooms::receive() {
     changes[block] /= static_cast<double>(end - first);
   });
   return *std::max_element(changes.begin(), changes.end());
+}
+
+}  // namespace
+
+std::vector<Arrived> discsInRooms(const TransportData& data, const sky::Daylight& day,
+                                  const Visibility& visibility, const DiscsThroughCloud& through) {
+  struct Shining {
+    const sky::DiscLight& disc;
+    const ThroughCloud& through;
+  };
+  std::vector<Shining> shining;
+  for (const Shining& one : {Shining{day.sun(), through.sun}, Shining{day.moon(), through.moon}})
+    if (one.disc.illuminance.value.maxCoeff() > leastDisc_lx(day)) shining.push_back(one);
+  if (data.rooms.sources.empty() || shining.empty()) return {};
+  RoomsByDiscs rooms(data);
+  for (const auto& [disc, through_to] : shining) rooms.add(disc, visibility, through_to);
+  return rooms.follow();
 }
 
 }  // namespace sunlit::light

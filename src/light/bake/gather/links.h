@@ -28,23 +28,36 @@ struct SampleSeen {
   }
 };
 
+/// What a room sees, by the numbers of its links, from `first` to `end`: above the horizon before `below`.
+struct RoomLinks {
+  RoomLinks(const BakedRooms& rooms, std::size_t room)
+      : first(rooms.first[room]),
+        below(rooms.below[room]),
+        end(rooms.first[room + 1]),
+        links_(rooms.links.data()),
+        tints_(rooms.link_tints.empty() ? nullptr : rooms.link_tints.data()),
+        scale_(rooms.scales[room]) {}
+
+  SampleSeen at(std::uint32_t number) const {
+    return {links_[number].sample(), scale_ * BakedRooms::weightOf(links_[number]),
+            tints_ == nullptr ? PackedTint() : tints_[number]};
+  }
+
+  const std::uint32_t first, below, end;
+
+ private:
+  // Copies, which no compiler has to fetch again after each look.
+  const BakedRooms::Link* links_;
+  const PackedTint* tints_;
+  float scale_;
+};
+
 /// Calls visit(SampleSeen, whether it is seen above the horizon) for all that a room sees.
 template <typename Visit>
 void visitLinks(const BakedRooms& rooms, std::size_t room, const Visit& visit) {
-  // Copies, which no compiler has to fetch again after each visit.
-  const BakedRooms::Link* const links = rooms.links.data();
-  const PackedTint* const tints = rooms.link_tints.empty() ? nullptr : rooms.link_tints.data();
-  const float scale = rooms.scales[room];
-  const auto visitThose = [&](std::uint32_t first, std::uint32_t end, bool up) {
-    for (std::uint32_t k = first; k < end; ++k) {
-      visit(SampleSeen{links[k].sample(), scale * BakedRooms::weightOf(links[k]),
-                       tints == nullptr ? PackedTint() : tints[k]},
-            up);
-    }
-  };
-  const std::uint32_t below = rooms.below[room];
-  visitThose(rooms.first[room], below, true);
-  visitThose(below, rooms.first[room + 1], false);
+  const RoomLinks links(rooms, room);
+  for (std::uint32_t k = links.first; k < links.below; ++k) visit(links.at(k), true);
+  for (std::uint32_t k = links.below; k < links.end; ++k) visit(links.at(k), false);
 }
 
 }  // namespace sunlit::light

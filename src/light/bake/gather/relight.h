@@ -1,10 +1,11 @@
-/// The light of one sky at every node.
+/// The light of one sky at the nodes of a bake.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "light/bake/samples/node_lights.h"
 #include "light/bake/samples/transport_data.h"
-#include "sunlit/light/illumination.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/sky/daylight.h"
 
@@ -18,7 +19,8 @@ struct Conditions {
   const Visibility* visibility;
 };
 
-/// At each node. Parallel; the same bits for any number of threads.
-std::vector<NodeLight> relight(const TransportData& data, const Conditions& conditions);
+/// Finds sun and moon in rooms, and the light of lamps, at once, and leaves all else to what it returns,
+/// which may be called by many threads. Parallel; the same bits for any number of threads. Keeps `data`.
+FindLight relight(std::shared_ptr<const TransportData> data, const Conditions& conditions);
 
 }  // namespace sunlit::light

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "sunlit/light/illumination.h"
@@ -47,19 +50,22 @@ class PackedLight {
   static constexpr std::uint32_t kHalf = 1u << (kDropped - 1);
   static constexpr float kLeast = 0x1p-34f, kMost = 0x1p29f;
   static constexpr std::uint32_t kLeastBits = (127u - 34u) << 23;  ///< of kLeast
-  std::uint16_t code_ = 0;
+  std::uint16_t code_;                                             // not set: see NodeLights
 };
 
-/// Each as NodeLight, rounded.
+/// Sets the light of nodes [first, end).
+using FindLight = std::function<void(std::size_t first, std::size_t end, NodeLight* light)>;
+
+/// Of each node, rounded. It is found, with that of its neighbours, when it is first asked for: pictures show
+/// few of them. May be asked by many threads.
 class NodeLights {
  public:
-  explicit NodeLights(const std::vector<NodeLight>& nodes) : count_(nodes.size()) {
-    values_.reserve(count_ * kValues + 1);
-    for (const NodeLight& node : nodes)
-      for (const Eigen::Array3f& light : {node.irradiance, node.around.above, node.around.below})
-        for (Eigen::Index c = 0; c < 3; ++c) values_.emplace_back(light[c]);
-    values_.emplace_back();  // what is read behind the last node
-  }
+  /// `find` is called by many threads, once at most for each node, and must not throw.
+  NodeLights(std::size_t count, FindLight find)
+      : count_(count),
+        find_(std::move(find)),
+        states_(blocks()),
+        values_(new PackedLight[blocks() * kOfBlock]) {}
 
   std::size_t size() const { return count_; }
   /// As NodeLight; the fourth value is of no meaning.
@@ -69,13 +75,22 @@ class NodeLights {
 
  private:
   static constexpr std::size_t kValues = 9;
+  static constexpr std::size_t kBlock = 32;                      ///< nodes that are found together
+  static constexpr std::size_t kOfBlock = kBlock * kValues + 1;  ///< with what is read behind the last node
+  enum State : std::uint8_t { kUnknown, kBeingFound, kFound };
 
+  std::size_t blocks() const { return (count_ + kBlock - 1) / kBlock; }
   Eigen::Array4f at(std::size_t node, std::size_t first) const {
-    return PackedLight::valuesOf(&values_[node * kValues + first]);
+    const std::size_t block = node / kBlock;
+    if (states_[block].load(std::memory_order_acquire) != kFound) find(block);
+    return PackedLight::valuesOf(&values_[block * kOfBlock + node % kBlock * kValues + first]);
   }
+  void find(std::size_t block) const;
 
   std::size_t count_;
-  std::vector<PackedLight> values_;
+  FindLight find_;
+  mutable std::vector<std::atomic<std::uint8_t>> states_;  ///< of each block
+  std::unique_ptr<PackedLight[]> values_;  ///< of each block; memory that nobody has touched is none
 };
 
 }  // namespace sunlit::light

@@ -2,10 +2,41 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "light/geometry/morton.h"
 
 namespace sunlit::light {
+namespace {
+
+/// By the samples that have most weight in them.
+void orderNodes(LightMesh* mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;  // sample, node
+  for (std::uint32_t n = 0; n < mesh->nodeCount(); ++n)
+    keys.emplace_back(mesh->shares[mesh->first_share[n]].sample, n);
+  std::sort(keys.begin(), keys.end());
+  image::KeptArray<std::uint32_t> first_share;
+  image::KeptArray<LightMesh::Share> shares;
+  std::vector<std::uint32_t> moved_to(keys.size());
+  for (std::uint32_t number = 0; number < keys.size(); ++number) {
+    const std::uint32_t n = keys[number].second;
+    moved_to[n] = number;
+    first_share.push_back(static_cast<std::uint32_t>(shares.size()));
+    for (std::uint32_t s = mesh->first_share[n]; s < mesh->first_share[n + 1]; ++s)
+      shares.push_back(mesh->shares[s]);
+  }
+  first_share.push_back(static_cast<std::uint32_t>(shares.size()));
+  mesh->first_share = std::move(first_share);
+  mesh->shares = std::move(shares);
+  for (LightMesh::Cell& cell : mesh->cells) {
+    if (cell.inner()) continue;
+    for (std::uint32_t& corner : cell.corner) corner = moved_to[corner];
+  }
+}
+
+}  // namespace
+
 void orderSamples(SceneSamples* samples) {
   struct Key {
     std::uint64_t block, place;
@@ -39,6 +70,7 @@ void orderSamples(SceneSamples* samples) {
   samples->other_side = std::move(other_side);
   samples->receivers = std::move(receivers);
   for (LightMesh::Share& share : samples->mesh.shares) share.sample = moved_to[share.sample];
+  orderNodes(&samples->mesh);
 }
 
 }  // namespace sunlit::light

@@ -15,7 +15,8 @@ namespace {
 /// What probes met, as bits of one byte.
 constexpr std::uint8_t kLit = 1, kDark = 2;
 
-constexpr int kPoints = static_cast<int>(DiscPoints::kPoints), kQuad = static_cast<int>(DiscPoints::kQuad);
+constexpr int kDiscPoints = static_cast<int>(DiscPoints::kPoints),
+              kQuad = static_cast<int>(DiscPoints::kQuad);
 static_assert(kQuad == ShareWindows::kRays);
 /// Side of the blocks in which gaps of deep shade are looked for, px, and how many of them a quadrant reaches
 /// to each side: 128 probes, of which one gets through with 70 % where 1 % of the disc shines through.
@@ -78,7 +79,8 @@ int DiscVisibility::raysAfter(Step step, int samples, bool fills) const {
   // One a sample, except where neighbours help; but a whole pixel gets a quad, however few samples it has.
   const int pixel = surfaces_.samples_per_pixel;
   const int first = fills ? kQuad : std::max(samples, kQuad * samples / pixel);
-  return std::min(step == Step::kSample ? first : std::max(first, kPoints * samples / pixel), kPoints);
+  return std::min(step == Step::kSample ? first : std::max(first, kDiscPoints * samples / pixel),
+                  kDiscPoints);
 }
 
 bool DiscVisibility::facesDisc(const LightTable::DiscTarget& target) const {

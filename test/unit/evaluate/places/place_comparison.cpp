@@ -156,6 +156,13 @@ TEST_F(PlacesTest, NameAPictureThatCannotBeRead) {
   setContent(map + "/x.jpg", jpeg.substr(0, jpeg.size() / 2));
   EXPECT_EQ(messageOf<std::runtime_error>([&] { find("sad", map, map); }),
             map + "/x.jpg: read: the file is cut off");
+  // A marker amid the data, which ends them: decoders make up the rest.
+  std::string damaged = jpeg;
+  damaged[2 * jpeg.size() / 3] = '\xff';
+  damaged[2 * jpeg.size() / 3 + 1] = '\xd9';
+  setContent(map + "/x.jpg", damaged);
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { find("sad", map, map); }),
+            map + "/x.jpg: read: damaged JPEG");
 }
 
 TEST_F(PlacesTest, OfSeqSlamNeedAWholeSequence) {
