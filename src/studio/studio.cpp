@@ -248,8 +248,10 @@ std::optional<ViewFault> Studio::viewFault() const {
                          ", is seen beneath the camera, but something is above: it is under the ground, or "
                          "there is none"};
   if (camera_->seesAnything()) return std::nullopt;
-  return ViewFault{"see nothing of the world", "nothing of the world is in view, " + reach() +
-                                                   "; surfaces with one side do not show the other"};
+  return ViewFault{"see nothing of the world",
+                   "nothing of the world is in view, " + reach() +
+                       "; surfaces with one side do not show the other, and nothing nearer "
+                       "than 5 cm is drawn"};
 }
 
 }  // namespace sunlit::studio

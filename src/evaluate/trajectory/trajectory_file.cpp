@@ -113,10 +113,25 @@ class Reader {
     if (stream.bad()) throw std::runtime_error(file_ + ": cannot be read: " + std::strerror(errno));
     if (poses_.empty())
       throw std::runtime_error(file_ + ": holds no pose, but must have lines of " + columns());
+    requireNanoseconds();
     return std::move(poses_);
   }
 
  private:
+  /// Milliseconds and microseconds since 1970 are whole numbers of as many digits as nanoseconds since a
+  /// start.
+  void requireNanoseconds() const {
+    if (form_ != &kTumOfNanoseconds || poses_.size() < 2) return;
+    constexpr double kMost_hz = 5000.0;
+    const auto steps = static_cast<double>(poses_.size() - 1);
+    const double hz = 1e9 * steps / static_cast<double>(poses_.back().stamp_ns - poses_.front().stamp_ns);
+    if (hz <= kMost_hz) return;
+    throw std::runtime_error(
+        file_ + ": timestamps beyond 9.2e9 are taken as nanoseconds, of which these would tell " +
+        std::to_string(std::llround(hz)) +
+        " poses a second, but it must be 5000 at most: write milliseconds and microseconds as seconds");
+  }
+
   [[noreturn]] void fail(const std::string& wrong) const {
     throw std::runtime_error(file_ + ":" + std::to_string(line_number_) + ": " + wrong);
   }

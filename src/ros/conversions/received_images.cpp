@@ -56,6 +56,12 @@ cv::Mat numbersOf(const sensor_msgs::Image& message, const std::string& encoding
   return pixelsOf(swapped, encoding);
 }
 
+bool tellsColours(const std::string& encoding) {
+  namespace encodings = sensor_msgs::image_encodings;
+  return encodings::isColor(encoding) || encodings::isMono(encoding) || encodings::isBayer(encoding) ||
+         encoding.rfind("yuv", 0) == 0;
+}
+
 /// What the camera called it, where compressed_image_transport sent it: its formats read like "rgb8; jpeg
 /// compressed bgr8".
 std::string encodingIn(const std::string& format) {
@@ -144,7 +150,11 @@ DecodedImage decode(const sensor_msgs::Image& message, std::size_t max_pixels) {
     decoded.traits.is_grey = sensor_msgs::image_encodings::isMono(message.encoding);
   } catch (const std::exception& error) {  // of cv_bridge and of OpenCV
     decoded.fault =
-        "encoding \"" + message.encoding + "\" cannot be converted to rgb8: " + std::string(error.what());
+        "encoding \"" + message.encoding + "\" cannot be converted to rgb8: " +
+        (tellsColours(message.encoding)
+             ? error.what()
+             : "it tells numbers, not colours; mono8, rgb8, bgr8, rgba8, bgra8, those of 16 bits, "
+               "Bayer mosaics and yuv422 can be");
   }
   return decoded;
 }
@@ -153,7 +163,9 @@ DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max
   DecodedImage decoded;
   const auto head = image::encodedPicture(message.data.data(), message.data.size());
   if (!head) {
-    decoded.fault = "format \"" + message.format + "\" is neither PNG nor JPEG, or is cut short";
+    decoded.fault =
+        "format \"" + message.format + "\"" +
+        (message.data.empty() ? ": there are no data" : " is neither PNG nor JPEG, or is cut short");
     return decoded;
   }
   decoded.traits.is_lossy = head->is_lossy;

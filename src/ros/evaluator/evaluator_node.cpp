@@ -27,11 +27,12 @@ bool isAskedToEnd() {
 }
 
 /// ROS says nothing more once it shuts down.
-void warnOfWhatIsLeft(const std::string& text) {
+void tell(ros::console::Level level, const std::string& text) {
+  using namespace ros::console::levels;
   if (ros::ok())
-    ROS_WARN("%s", text.c_str());
+    ROS_LOG(level, ROSCONSOLE_DEFAULT_NAME, "%s", text.c_str());
   else
-    std::cerr << "[ WARN] " << text << std::endl;
+    std::cerr << (level == Error ? "[ERROR] " : level == Warn ? "[ WARN] " : "[ INFO] ") << text << std::endl;
 }
 
 /// Lasts until so long after that.
@@ -163,14 +164,14 @@ void EvaluatorNode::finish(const std::string& reason) {
   std::string table;
   if (outcome.counts.evaluatedPoses() > 0)
     table = "\n" + summaryTable(outcome.summary) + verifiedTable(outcome.verified);
-  ROS_INFO("%zu poses in %s%s", outcome.counts.evaluatedPoses(), options_.evaluation.output_dir.c_str(),
-           table.c_str());
+  tell(ros::console::levels::Info, std::to_string(outcome.counts.evaluatedPoses()) + " poses in " +
+                                       options_.evaluation.output_dir + table);
   faults_ = faultsOf(evaluation_->options(), outcome);
   if (const std::string silent = intake_->silentTopics(); !faults_.empty() && !silent.empty())
     faults_ += "; no image came of " + silent;
-  if (!faults_.empty()) ROS_ERROR("%s", faults_.c_str());
+  if (!faults_.empty()) tell(ros::console::levels::Error, faults_);
   const std::string remarks = remarksOf(evaluation_->options(), outcome.counts);
-  if (!remarks.empty()) ROS_WARN("%s", remarks.c_str());
+  if (!remarks.empty()) tell(ros::console::levels::Warn, remarks);
   if (!outcome.is_broken_off) localise();
   compareMethods(outcome.is_broken_off);
   if (options_.report && !outcome.is_broken_off && !isAskedToEnd()) drawReport(outcome);
@@ -200,7 +201,8 @@ void EvaluatorNode::localise() {
     faults_ += (faults_.empty() ? "" : "; ") + faults;
   } catch (const evaluate::Stopped&) {
     faults_ += std::string(faults_.empty() ? "" : "; ") + "interrupted before all queries were localised";
-    warnOfWhatIsLeft("interrupted before all queries were localised; the same run again does it");
+    tell(ros::console::levels::Warn,
+         "interrupted before all queries were localised; the same run again does it");
   }
 }
 
@@ -210,7 +212,8 @@ void EvaluatorNode::compareMethods(bool is_broken_off) {
   try {
     evaluation_->compareMethods(evaluate::StopToken([&] { return patience.isOver(); }));
   } catch (const evaluate::Stopped&) {
-    warnOfWhatIsLeft(
+    tell(
+        ros::console::levels::Warn,
         "interrupted before methods and hours were compared: there is no comparisons.csv; the same run again "
         "writes it");
   }
@@ -223,7 +226,7 @@ void EvaluatorNode::drawReport(const evaluate::Outcome& outcome) {
     const std::string fault = drawnReport(evaluation_->options(), outcome.counts, stop);
     if (!fault.empty()) ROS_WARN("%s", fault.c_str());
   } catch (const evaluate::Stopped&) {
-    warnOfWhatIsLeft("interrupted before the report was drawn; the same run again draws it");
+    tell(ros::console::levels::Warn, "interrupted before the report was drawn; the same run again draws it");
   }
 }
 
@@ -247,6 +250,7 @@ int EvaluatorNode::run() {
       ROS_WARN("Images come after the end and are left out: only a node that is started anew takes them");
     }
     if (is_finished_ && options_.exit_when_done) {
+      ros::getGlobalCallbackQueue()->callAvailable();  // others who asked to finish meanwhile
       deliverTheLast();
       return status_;
     }

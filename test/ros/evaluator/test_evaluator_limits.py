@@ -307,7 +307,7 @@ class TestLimits(unittest.TestCase):
         self.assertEqual({value for value in values.values()}, {0.0})
         reasons = [row['reason'] for row in self.problems('undecodable') if row['where'] == 'h04']
         self.assertEqual(len(reasons), 1)
-        self.assertIn('encoding ""8UC3"" cannot be converted to rgb8', reasons[0])
+        self.assertIn('encoding ""8UC3"" cannot be converted to rgb8: it tells numbers, not colours; mono8, rgb8', reasons[0])
 
     def test_compressed_images_need_no_plug_in(self):
         self.streams.close()

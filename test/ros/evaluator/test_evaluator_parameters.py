@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Wrong parameters stop the node with one line; topics and services beside the images."""
+import concurrent.futures
 import errno
 import os
 import signal
@@ -208,6 +209,32 @@ class TestParameters(unittest.TestCase):
         status, output = evaluator.wait()
         self.assertEqual(status, 0, output)
         streams.close()
+
+    def test_after_rosnode_kill_it_says_what_is_missing_and_where_the_rest_is(self):
+        streams = Streams(['h04', 'h12'])
+        evaluator = Evaluator(dict(self.settings, poses=5))
+        streams.wait_for(evaluator)
+        for stream in range(2):
+            streams.send(stream, stamp_of(0), picture(0, stream))
+        wait_until(lambda: evaluator.progress == 1, 'a pose')
+        _, _, api = rospy.get_master().lookupNode('/' + evaluator.name)
+        xmlrpc.client.ServerProxy(api).shutdown(rospy.get_name(), 'as rosnode kill says')
+        status, output = evaluator.wait()
+        self.assertEqual(status, 3, output)
+        self.assertIn('1 poses in ' + self.settings['output_dir'], output)
+        self.assertIn('not evaluated: 4 expected poses never came', output)
+        streams.close()
+
+    def test_all_who_ask_it_to_finish_are_answered(self):
+        evaluator = Evaluator(dict(self.settings, exit_when_done=True))
+        name = '/%s/finish' % evaluator.name
+        rospy.wait_for_service(name, LONGEST_WAIT_S)
+        callers = [rospy.ServiceProxy(name, Trigger, persistent=True) for _ in range(5)]
+        with concurrent.futures.ThreadPoolExecutor(len(callers)) as threads:
+            answers = list(threads.map(lambda call: call().message, callers))
+        self.assertEqual(len(set(answers)), 1, answers)
+        self.assertIn('results are in ' + self.settings['output_dir'], answers[0])
+        evaluator.wait()
 
     def test_rosnode_kill_is_heeded_while_the_report_is_drawn(self):
         streams = Streams(['h04', 'h12'])

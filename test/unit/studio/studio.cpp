@@ -58,8 +58,10 @@ TEST(Studio, SaysWhereTheWorldIsThatIsNotInView) {
   studio.look(Eigen::Isometry3d(Eigen::Translation3d(5000, 0, 1)));
   ASSERT_TRUE(studio.viewFault());
   EXPECT_EQ(studio.viewFault()->poses, std::string("see nothing of the world"));
-  EXPECT_EQ(studio.viewFault()->reason, "nothing of the world is in view, " + reachOf(bounds) +
-                                            "; surfaces with one side do not show the other");
+  EXPECT_EQ(studio.viewFault()->reason,
+            "nothing of the world is in view, " + reachOf(bounds) +
+                "; surfaces with one side do not show the other, and nothing nearer "
+                "than 5 cm is drawn");
   EXPECT_EQ(reachOf({Eigen::Vector3d(-1.25, 592000.4, 0.0), Eigen::Vector3d(99.96, 592003.0, 2.0)}),
             "which reaches from -1.25,592000,0 to 100,592003,2 m");
 }

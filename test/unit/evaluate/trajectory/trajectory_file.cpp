@@ -87,6 +87,17 @@ TEST_F(TrajectoryFile, TumHasNanosecondsWhereSecondsCannotBeSoMany) {
             ":2: timestamp is \"1000100000000\", but must be a number of seconds within ±9.2e9 s");
 }
 
+TEST_F(TrajectoryFile, MillisecondsAndMicrosecondsAreNotTakenForNanoseconds) {
+  for (const std::string zeros : {"", "000"}) {
+    const std::string first = "1719820800000" + zeros, next = "1719820800100" + zeros;
+    EXPECT_EQ(errorOf(first + " 0 0 0 0 0 0 1\n" + next + " 0 0 0 0 0 0 1\n"),
+              ": timestamps beyond 9.2e9 are taken as nanoseconds, of which these would tell " +
+                  std::string(zeros.empty() ? "10000000" : "10000") +
+                  " poses a second, but it must be 5000 at most: write milliseconds and microseconds as "
+                  "seconds");
+  }
+}
+
 TEST_F(TrajectoryFile, StampsKeepEveryNanosecond) {
   EXPECT_EQ(stampOf("1403715529.112143517"), 1403715529112143517);
   EXPECT_EQ(stampOf("1.403715529112143517e+09"), 1403715529112143517);
