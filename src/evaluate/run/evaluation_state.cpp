@@ -182,6 +182,10 @@ void Evaluation::State::note(std::size_t stream, std::int64_t stamp_ns, const Im
 void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_) return;
+  if (const auto told = poses_.told(capture.stamp_ns); told.value_or(capture.pose) != capture.pose)
+    report(
+        {"two_numbers", capture.pose, capture.stamp_ns, options_.streams.at(stream),
+         "an earlier capture of this stamp tells pose " + std::to_string(*told) + "; the last one counts"});
   learn(capture);
   const std::int64_t pose = poses_.known(capture.stamp_ns).value_or(capture.pose);
   const bool is_first =

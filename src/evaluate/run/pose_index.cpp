@@ -19,6 +19,12 @@ void PoseIndex::learn(std::int64_t stamp_ns, std::int64_t pose) {
   is_by_capture_ = is_by_capture_ || !by_order_ || numbered_.count(stamp_ns) != 0;
 }
 
+std::optional<std::int64_t> PoseIndex::told(std::int64_t stamp_ns) const {
+  const auto found = learnt_.find(stamp_ns);
+  if (found == learnt_.end()) return std::nullopt;
+  return found->second;
+}
+
 void PoseIndex::remember(std::int64_t stamp_ns, std::int64_t pose) {
   numbered_.emplace(stamp_ns, pose);
 }

@@ -24,6 +24,8 @@ class PoseIndex {
 
   /// A capture said so: of an image, or of none, which tells nothing of any other.
   void learn(std::int64_t stamp_ns, std::int64_t pose);
+  /// What the latest capture of a stamp said.
+  std::optional<std::int64_t> told(std::int64_t stamp_ns) const;
   /// An earlier run said so; only used where neither rate nor capture does. Of several the first counts.
   void remember(std::int64_t stamp_ns, std::int64_t pose);
   /// All is remembered. Numbers stay, as pictures bear them; but each of several runs may have begun at 0, or

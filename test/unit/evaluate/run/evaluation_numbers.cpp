@@ -131,6 +131,24 @@ void tell(Evaluation& evaluation, std::int64_t stamp, std::int64_t pose) {
   for (std::size_t s = 0; s < evaluation.options().streams.size(); ++s) evaluation.addCapture(s, capture);
 }
 
+TEST(PosesByCapture, AreNamedWhereOneStampHasTwoOfThem) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(tenPoses(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    tell(evaluation, pose, pose);
+    feedPose(evaluation, pose);
+  }
+  CaptureRecord other;
+  other.pose = 7;
+  other.stamp_ns = stampOf(3);
+  evaluation.addCapture(1, other);
+  evaluation.finish();
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  EXPECT_TRUE(hasLine(problems, "two_numbers,7,500.300000000," + evaluation.options().streams[1] +
+                                    ",an earlier capture of this stamp tells pose 3; the last one counts"))
+      << problems;
+}
+
 /// All of a stamp, which is evaluated before anything else comes.
 void evaluateStamp(Evaluation& evaluation, std::int64_t stamp) {
   PlaceRecord place;
