@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/color.h"
+#include "scene/ogre_words.h"
 
 namespace sunlit::scene {
 namespace {
@@ -100,27 +101,8 @@ const std::set<std::string> kLost = {
     "scroll_anim",        "rotate_anim",          "wave_xform",      "rotate",  "cull_hardware",
     "cull_software",      "tex_address_mode",     "tex_coord_set"};
 
-using Words = std::vector<std::string>;
+using Words = ScriptWords;
 using Lines = std::vector<Words>;
-
-/// Words and braces of a script, a line at a time, without comments.
-Lines linesOf(const std::string& text) {
-  Lines lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    line = line.substr(0, line.find("//"));
-    std::string spaced;
-    for (const char letter : line) {
-      const bool brace = letter == '{' || letter == '}';
-      spaced += brace ? std::string(" ") + letter + " " : std::string(1, letter);
-    }
-    std::istringstream words(spaced);
-    Words split;
-    for (std::string word; words >> word;) split.push_back(word);
-    if (!split.empty()) lines.push_back(std::move(split));
-  }
-  return lines;
-}
 
 std::optional<float> numberOf(const std::string& word) {
   std::istringstream stream(word);
@@ -206,6 +188,12 @@ struct Reading {
 
 /// Where in the script the reading is, and what is between the diffuse colour and the texture.
 void readPass(const Words& words, Reading& reading) {
+  if (words[0] == "technique" || words[0] == "pass" || words[0] == "texture_unit") {
+    const std::size_t colon =
+        words.size() > 1 && words[1] != ":" && words[1] != "{" ? 2 : 1;  // behind a name
+    if (colon + 1 < words.size() && words[colon] == ":")
+      reading.material.lost.insert("what its " + words[0] + " has of " + words[colon + 1]);
+  }
   if (words[0] == "pass") {
     ++reading.passes;
     reading.units_of_pass = 0;
@@ -358,6 +346,8 @@ std::optional<ScriptMaterial> materialIn(const Script& script, std::size_t end, 
     }
     if (reading) readLine(words, *reading);
     for (const std::string& word : words) depth += word == "{" ? 1 : word == "}" ? -1 : 0;
+    // What stands between two materials, such as an abstract pass, belongs to none.
+    if (reading && depth == 0 && std::count(words.begin(), words.end(), "}") > 0) break;
   }
   if (!reading) return std::nullopt;
   takeTextures(*reading);
@@ -393,7 +383,7 @@ std::optional<GazeboLook> gazeboLook(const std::string& name) {
 
 std::optional<ScriptMaterial> parseMaterialScript(const std::string& text, const std::string& name,
                                                   const ScriptOf& elsewhere) {
-  const Lines lines = linesOf(text);
+  const Lines lines = linesOfScript(text);
   return materialIn({lines, elsewhere}, lines.size(), name);
 }
 

@@ -50,6 +50,60 @@ TEST(GazeboMaterial, ReadsOneMaterialOfAScript) {
   EXPECT_FALSE(parseMaterialScript(kScript, "Gravel"));
 }
 
+const float kGreen[3] = {0.0f, 1.0f, 0.0f};
+
+void expectGreen(const std::optional<ScriptMaterial>& material) {
+  ASSERT_TRUE(material && material->diffuse);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(material->diffuse->value[c], kGreen[c]);
+}
+
+TEST(MaterialScript, HasCommentsOfTwoKindsAndWordsInQuotes) {
+  const std::string script = R"(
+/* material A { technique { pass { diffuse 1 0 0 1 } } }
+   { */
+material "Two // Words" { technique { pass {
+  /* diffuse 1 0 0 1
+  */ diffuse 0 1 0 1 // diffuse 1 0 0 1
+  texture_unit { texture "some /* picture.png" } } } }
+material Child:"Two // Words" { }
+)";
+  EXPECT_FALSE(parseMaterialScript(script, "A"));
+  for (const char* name : {"Two // Words", "Child"}) {
+    const auto material = parseMaterialScript(script, name);
+    expectGreen(material);
+    EXPECT_EQ(material->texture.value_or(""), "some /* picture.png");
+    EXPECT_TRUE(material->lost.empty());
+  }
+}
+
+TEST(MaterialScript, OfAMaterialEndsWithIt) {
+  const std::string script = R"(
+abstract pass Green { diffuse 0 1 0 1 }
+material Plain
+{
+  technique { pass { ambient 1 1 1 1 } }
+}
+abstract pass Red { diffuse 1 0 0 1 }
+vertex_program Deep glsl { default_params { param_named deepColor float4 0 0 0 1 } }
+material Heir { technique { pass : Green { } } }
+)";
+  const auto plain = parseMaterialScript(script, "Plain");
+  ASSERT_TRUE(plain);
+  EXPECT_FALSE(plain->diffuse);
+  EXPECT_TRUE(plain->lost.empty());
+  const auto heir = parseMaterialScript(script, "Heir");
+  ASSERT_TRUE(heir);
+  EXPECT_EQ(heir->lost, std::set<std::string>{"what its pass has of Green"});
+}
+
+TEST(MaterialScript, HasVariables) {
+  const auto material = parseMaterialScript(
+      "material A { technique { pass {\nset $picture \"a b.png\"\ntexture_unit {\ntexture $picture\n} } } }",
+      "A");
+  ASSERT_TRUE(material);
+  EXPECT_EQ(material->texture.value_or(""), "a b.png");
+}
+
 TEST(MaterialScript, InheritsFromWhatComesWithGazeboAndNamesAParentThatIsNotThere) {
   const auto red = parseMaterialScript("material A : Gazebo/Red\n{\n}\n", "A");
   ASSERT_TRUE(red && red->diffuse);
