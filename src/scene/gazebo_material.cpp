@@ -101,8 +101,7 @@ const std::set<std::string> kLost = {
     "scroll_anim",        "rotate_anim",          "wave_xform",      "rotate",  "cull_hardware",
     "cull_software",      "tex_address_mode",     "tex_coord_set"};
 
-using Words = ScriptWords;
-using Lines = std::vector<Words>;
+using Lines = std::vector<ScriptWords>;
 
 std::optional<float> numberOf(const std::string& word) {
   std::istringstream stream(word);
@@ -111,7 +110,7 @@ std::optional<float> numberOf(const std::string& word) {
   return number;
 }
 
-std::optional<LinearRgb> colorOf(const Words& words) {
+std::optional<LinearRgb> colorOf(const ScriptWords& words) {
   if (words.size() < 4) return std::nullopt;
   std::array<float, 3> display{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -123,13 +122,13 @@ std::optional<LinearRgb> colorOf(const Words& words) {
 }
 
 /// OGRE's `alpha_op_ex source1 src_manual OTHER VALUE`: the value; none for other operations.
-std::optional<float> manualAlpha(const Words& words) {
+std::optional<float> manualAlpha(const ScriptWords& words) {
   if (words.size() < 5 || words[1] != "source1" || words[2] != "src_manual") return std::nullopt;
   return numberOf(words[4]);
 }
 
 /// OGRE's `scene_blend alpha_blend`, or the same in full.
-bool blendsByAlpha(const Words& words) {
+bool blendsByAlpha(const ScriptWords& words) {
   const auto word = [&](std::size_t i) {
     return i < words.size() && words[i] != "}" ? words[i] : std::string();
   };
@@ -138,7 +137,7 @@ bool blendsByAlpha(const Words& words) {
 }
 
 /// OGRE's `scale U V`; none for what is no size.
-std::optional<Eigen::Array2f> scaleOf(const Words& words) {
+std::optional<Eigen::Array2f> scaleOf(const ScriptWords& words) {
   if (words.size() < 3) return std::nullopt;
   const Eigen::Array2f scale(numberOf(words[1]).value_or(0.0f), numberOf(words[2]).value_or(0.0f));
   constexpr float kSmallest = 1e-4f;  // a texture that is repeated more often is noise
@@ -147,7 +146,7 @@ std::optional<Eigen::Array2f> scaleOf(const Words& words) {
 }
 
 /// Whether OGRE's `colour_op` or `colour_op_ex` has a texture multiply what it lies on, as without either.
-bool multiplies(const Words& words) {
+bool multiplies(const ScriptWords& words) {
   if (words.size() < 2 || words[1] != "modulate") return false;
   if (words[0] == "colour_op") return true;
   if (words.size() < 4) return false;
@@ -157,7 +156,7 @@ bool multiplies(const Words& words) {
 }
 
 /// OGRE's `colour_op_ex source1 src_manual OTHER R G B`, a plain colour; none for other operations.
-std::optional<LinearRgb> manualColor(const Words& words) {
+std::optional<LinearRgb> manualColor(const ScriptWords& words) {
   if (words.size() < 7 || words[0] != "colour_op_ex" || words[1] != "source1" || words[2] != "src_manual")
     return std::nullopt;
   return colorOf({words.begin() + 3, words.end()});
@@ -187,7 +186,7 @@ struct Reading {
 };
 
 /// Where in the script the reading is, and what is between the diffuse colour and the texture.
-void readPass(const Words& words, Reading& reading) {
+void readPass(const ScriptWords& words, Reading& reading) {
   if (words[0] == "technique" || words[0] == "pass" || words[0] == "texture_unit") {
     const std::size_t colon =
         words.size() > 1 && words[1] != ":" && words[1] != "{" ? 2 : 1;  // behind a name
@@ -214,7 +213,7 @@ void readPass(const Words& words, Reading& reading) {
 }
 
 /// OGRE's `param_named NAME TYPE VALUE` of a shader, which may stand before or behind what it is about.
-void readParameter(const Words& words, Reading& reading) {
+void readParameter(const ScriptWords& words, Reading& reading) {
   if (words.size() < 4) return;
   std::string name = words[1];
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -250,11 +249,11 @@ void takeUnitColor(Reading& reading) {
 }
 
 /// One line, or several written as one: a keyword may follow a brace.
-void readLine(const Words& line, Reading& reading) {
+void readLine(const ScriptWords& line, Reading& reading) {
   ScriptMaterial& material = reading.material;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (i > 0 && line[i - 1] != "{" && line[i - 1] != "}") continue;
-    const Words words(line.begin() + static_cast<std::ptrdiff_t>(i), line.end());
+    const ScriptWords words(line.begin() + static_cast<std::ptrdiff_t>(i), line.end());
     if (words[0] == "diffuse" && !material.diffuse) {
       material.diffuse = colorOf(words);
       if (material.diffuse)
@@ -332,7 +331,7 @@ std::optional<ScriptMaterial> materialIn(const Script& script, std::size_t end, 
   std::optional<ScriptMaterial> parent;
   int depth = 0;
   for (std::size_t i = 0; i < end; ++i) {
-    const Words& words = script.lines[i];
+    const ScriptWords& words = script.lines[i];
     const bool starts = depth == 0 && words[0] == "material" && words.size() > 1;
     if (starts && reading) break;
     if (starts && words[1] == name) {

@@ -52,6 +52,11 @@ const std::map<std::string, Children> kChildren = {
 };
 
 const Words kLightTypes = {"point", "spot", "directional"};
+/// Elements of numbers alone.
+const Words kOfNumbers = {"pose",      "size",      "radius",  "length",       "scale",       "radii",
+                          "point",     "normal",    "height",  "width",        "diffuse",     "ambient",
+                          "specular",  "emissive",  "range",   "constant",     "linear",      "quadratic",
+                          "direction", "intensity", "falloff", "transparency", "inner_angle", "outer_angle"};
 
 /// The newest version that libsdformat 12 reads is 1.9, and the elements above are those from 1.4 on.
 constexpr int kNewest = 9;
@@ -79,6 +84,16 @@ std::size_t numbersIn(const std::string& text) {
   std::size_t numbers = 0;
   for (double number; words >> number;) ++numbers;
   return words.eof() ? numbers : 0;
+}
+
+/// Whether numbers end in something else, of which libsdformat says nothing: "1,5" is 1, "90deg" 90.
+bool hasTail(const std::string& text) {
+  std::istringstream words(text);
+  double number = 0.0;
+  if (!(words >> number)) return false;
+  while (words >> number) {
+  }
+  return !words.eof();
 }
 
 class Mender {
@@ -144,6 +159,10 @@ class Mender {
 
   void mendBelow(XMLElement& parent) {
     const std::string kind = parent.Value();
+    if (kOfNumbers.count(kind) == 1 && parent.GetText() != nullptr && hasTail(parent.GetText()))
+      builder_.warn(
+          "numbers end in what is none, and that is passed over (decimals have a point, blanks part numbers)",
+          described(parent, file_) + " is " + parent.GetText());
     if (kind == "sdf") nameWorlds(parent);
     if (kind == "model") mendModel(parent);
     if (kind == "pose") mendPose(parent);

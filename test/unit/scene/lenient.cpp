@@ -242,6 +242,18 @@ TEST_F(Lenient, APoseOfLessThanSixNumbersEndsInZeros) {
   EXPECT_NE(errorOf(worldFile(model("<pose>1 2 3 x</pose>" + link(kVisual)))), "");
 }
 
+TEST_F(Lenient, NumbersThatEndInSomethingElseAreNamed) {
+  const Scene scene = loaded(model("<pose>1,5 2 3 0 0 0</pose>" + link(kVisual)) +
+                             model("<pose>1.5 2 3 0 0 0</pose>" + link(kVisual), "whole"));
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(
+      scene.warnings[0].find("1 numbers end in what is none, and that is passed over (decimals have a point, "
+                             "blanks part numbers): <pose>"),
+      0u)
+      << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find(" is 1,5 2 3 0 0 0"), std::string::npos) << scene.warnings[0];
+}
+
 // As Gazebo 9 saves models within models; libsdformat's converter asserts that the frame is one of the
 // model's.
 TEST_F(Lenient, APoseMayNameNoFrame) {
