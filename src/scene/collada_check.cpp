@@ -385,15 +385,16 @@ class Check {
 
 }  // namespace
 
-void requireReadableCollada(const std::string& text, const std::string& file) {
-  tinyxml2::XMLDocument document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    throw std::runtime_error(file + ": the XML is broken on line " + std::to_string(document.ErrorLineNum()) +
-                             " (" + document.ErrorName() + ")");
+std::unique_ptr<tinyxml2::XMLDocument> checkedCollada(const std::string& text, const std::string& file) {
+  auto document = std::make_unique<tinyxml2::XMLDocument>();
+  if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error(file + ": the XML is broken on line " +
+                             std::to_string(document->ErrorLineNum()) + " (" + document->ErrorName() + ")");
   }
-  XMLElement* const root = document.RootElement();
+  XMLElement* const root = document->RootElement();
   if (root == nullptr) throw std::runtime_error(file + ": there is no element in this file");
   Check(file, *root).run();
+  return document;
 }
 
 }  // namespace sunlit::scene

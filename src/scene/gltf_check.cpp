@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "scene/gltf_json.h"
@@ -39,11 +40,18 @@ class Check {
       checkSkin(list("skins")[i], "skin " + std::to_string(i));
     checkParents();
     checkLevels();
+    checkForms();
   }
 
  private:
   [[noreturn]] void fail(const std::string& place, const std::string& wrong) const {
     throw std::runtime_error(file_ + ": " + place + " " + wrong);
+  }
+
+  [[noreturn]] void failOf(const json& value, const std::string& key, const std::string& place,
+                           const std::string& wanted) const {
+    fail(place, "has " + key + " " + value.dump(-1, ' ', false, json::error_handler_t::replace) +
+                    ", but it must be " + wanted);
   }
 
   /// Of objects; empty where there is none.
@@ -59,9 +67,7 @@ class Check {
     if (found == from.end()) return usual;
     constexpr std::uint64_t kLargest = 0xFFFFFFFF;
     if (!found->is_number_unsigned() || found->get<std::uint64_t>() > kLargest)
-      fail(place, std::string("has ") + key + " " +
-                      found->dump(-1, ' ', false, json::error_handler_t::replace) +
-                      ", but it must be a whole number from 0 to 4294967295");
+      failOf(*found, key, place, "a whole number from 0 to 4294967295");
     return found->get<std::uint64_t>();
   }
 
@@ -194,6 +200,34 @@ class Check {
         }
       }
       at = std::move(below);
+    }
+  }
+
+  void requireNumbers(const json& from, const char* key, std::size_t count, const std::string& place) const {
+    const auto found = from.find(key);
+    if (found == from.end()) return;
+    const bool is_well =
+        found->is_array() && found->size() == count &&
+        std::all_of(found->begin(), found->end(), [](const json& one) { return one.is_number(); });
+    if (!is_well) failOf(*found, key, place, std::to_string(count) + " numbers");
+  }
+
+  /// Of what Assimp passes over where it has another (glTF 2.0, sections 5.25, 5.19 and 5.22).
+  void checkForms() const {
+    for (std::size_t i = 0; i < list("nodes").size(); ++i) {
+      const std::pair<const char*, std::size_t> all[] = {
+          {"translation", 3}, {"rotation", 4}, {"scale", 3}, {"matrix", 16}};
+      for (const auto& [key, count] : all)
+        requireNumbers(list("nodes")[i], key, count, "node " + std::to_string(i));
+    }
+    for (std::size_t i = 0; i < list("materials").size(); ++i) {
+      const json& material = list("materials")[i];
+      const std::string place = "material " + std::to_string(i);
+      requireNumbers(material, "emissiveFactor", 3, place);
+      requireNumbers(child(material, "pbrMetallicRoughness"), "baseColorFactor", 4, place);
+      const json& mode = child(material, "alphaMode");
+      if (material.contains("alphaMode") && mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
+        failOf(mode, "alphaMode", place, "OPAQUE, MASK or BLEND");
     }
   }
 

@@ -1,6 +1,7 @@
 #include "scene/gltf_input.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -148,6 +149,11 @@ void requireGltf2(const json& root, const std::string& file) {
   if (text.compare(0, 2, "2.") != 0 && text != "2")
     throw std::runtime_error(file + ": this is glTF " + (text.empty() ? "without a version" : text) +
                              ", and only 2.0 is read: convert it, by Blender or gltf-pipeline");
+  const json& least = child(child(root, "asset"), "minVersion");
+  const std::string needed = least.is_string() ? least.get<std::string>() : least.dump();
+  if (std::strtod(needed.c_str(), nullptr) > 2.0)
+    throw std::runtime_error(file + ": this file needs glTF " + needed +
+                             ", as its minVersion says, and only 2.0 is read");
 }
 
 GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(file) {

@@ -21,6 +21,7 @@
 #include "scene/back_to_back.h"
 #include "scene/collada_check.h"
 #include "scene/collada_effects.h"
+#include "scene/collada_instances.h"
 #include "scene/collada_lamps.h"
 #include "scene/collada_morphs.h"
 #include "scene/collada_sets.h"
@@ -29,6 +30,7 @@
 #include "scene/mesh_rest.h"
 #include "scene/mesh_vertices.h"
 #include "scene/obj_input.h"
+#include "scene/stl_faces.h"
 #include "scene/triangle_budget.h"
 #include "scene/uri_text.h"
 #include "sunlit/image/files.h"
@@ -188,8 +190,8 @@ ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, 
   for (const std::string& morph : still.names)
     builder.warn("meshes have morphs, which are left out: they have their base shape", morph + " of " + file);
   std::string text = withAddressesOfImages(withCountedLines(still.text));
-  requireReadableCollada(text, file);
-  text = withParameters(withKnownSets(text));
+  warnOfLostInstances(*checkedCollada(text, file)->RootElement(), file, builder);
+  text = withParameters(withKnownSets(withInstancesWithin(text)));
   ColladaEffects effects = effectsOf(text);
   text = withExponentsOfSpots(
       withNamesOfLamps(withWeightsAtOnce(withBareMaterials(text, effects.without_effect))));
@@ -205,7 +207,11 @@ ColladaEffects readCollada(const std::string& file, Assimp::Importer& importer, 
 /// Has Assimp read any file.
 ColladaEffects readInto(Assimp::Importer& importer, const std::string& file, SceneBuilder& builder) {
   if (extensionOf(file) == ".dae") return readCollada(file, importer, builder);
-  importer.ReadFile(file, 0);
+  const std::string faces = extensionOf(file) == ".stl" ? countedFacesOfStl(file) : "";
+  if (faces.empty())
+    importer.ReadFile(file, 0);
+  else
+    importer.ReadFileFromMemory(faces.data(), faces.size(), 0, "stl");
   return {};
 }
 

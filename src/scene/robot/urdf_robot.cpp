@@ -62,6 +62,32 @@ void appendLinks(const urdf::Link& link, int parent, const UrdfText& text, std::
   for (const urdf::LinkSharedPtr& child : link.child_links) appendLinks(*child, index, text, links);
 }
 
+/// urdfdom passes over links that several joints hold, though those may go in circles then.
+void requireOneJointEach(const UrdfText& text) {
+  std::map<std::string, std::string> holders;  // by the link
+  for (const auto& [name, joint] : text.model().joints_) {
+    const auto [holder, is_first] = holders.emplace(joint->child_link_name, name);
+    if (!is_first) {
+      throw std::runtime_error(text.place("link", joint->child_link_name) + ": it is the child of joints " +
+                               holder->second + " and " + name + ", but must be that of one");
+    }
+  }
+}
+
+/// Links that hang from each other in a circle are none of the root's, of which urdfdom says nothing.
+void requireAllReached(const UrdfText& text, const std::vector<RobotLink>& reached) {
+  std::set<std::string> names;
+  for (const RobotLink& link : reached) names.insert(link.name);
+  std::string wrong;
+  for (const std::string& link : text.links()) {
+    if (names.count(link) > 0) continue;
+    wrong += wrong.empty() ? text.place("link", link) + ": no joints lead to it from link " +
+                                 reached.front().name + ", the root"
+                           : ", nor to link " + link;
+  }
+  if (!wrong.empty()) throw std::runtime_error(wrong);
+}
+
 }  // namespace
 
 Robot parseUrdf(const std::string& text, const std::string& origin, const SearchPath& search_path) {
@@ -69,7 +95,11 @@ Robot parseUrdf(const std::string& text, const std::string& origin, const Search
   const ResourceFinder finder(search_path, origin);
   Robot robot;
   robot.name = urdf_text.model().getName();
-  if (urdf_text.model().getRoot()) appendLinks(*urdf_text.model().getRoot(), -1, urdf_text, &robot.links);
+  if (urdf_text.model().getRoot()) {
+    requireOneJointEach(urdf_text);
+    appendLinks(*urdf_text.model().getRoot(), -1, urdf_text, &robot.links);
+    requireAllReached(urdf_text, robot.links);
+  }
   LinkMeshes meshes(origin);
   UrdfVisuals visuals(origin, finder, meshes.builder());
   std::map<std::string, GazeboMaterial> of_gazebo = gazeboMaterialsOfLinks(text);
@@ -77,6 +107,8 @@ Robot parseUrdf(const std::string& text, const std::string& origin, const Search
     const bool told = oddity.find("' undefined.") != std::string::npos;  // of materials, with their visuals
     if (!told) meshes.builder().warn("warnings of urdfdom", oddity);
   }
+  for (const std::string& element : urdf_text.unknown())
+    meshes.builder().warn("elements of links have a <geometry>, but are unknown, and were left out", element);
   std::map<std::string, std::vector<Lamp>> lamps = urdfLamps(text, meshes.builder());
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     const std::string& name = robot.links[i].name;

@@ -41,6 +41,22 @@ void dropUnseen(TiXmlElement* robot) {
   }
 }
 
+/// The first of `element` and those below it whose name is as wanted; null where there is none.
+const TiXmlElement* firstIn(const TiXmlElement& element, bool (*wanted)(const std::string& name)) {
+  if (wanted(element.Value())) return &element;
+  for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (const TiXmlElement* const found = firstIn(*child, wanted)) return found;
+  }
+  return nullptr;
+}
+
+/// Of links, whether or not they may have a shape; other programs have elements of their own, with a prefix.
+bool isKnownInLinks(const std::string& name) {
+  return name == "visual" || name == "inertial" || name == "sensor" ||
+         name.find("collision") != std::string::npos || name.find(':') != std::string::npos;
+}
+
 }  // namespace
 
 UrdfText::UrdfText(const std::string& text, const std::string& origin) : origin_(origin) {
@@ -71,13 +87,11 @@ std::string UrdfText::read(const std::string& text) {
   }
   TiXmlElement* const robot = document.FirstChildElement("robot");
   if (robot == nullptr) throw std::runtime_error(origin_ + ":1: there is no <robot> element in this text");
+  requireNoMacros(*robot);
   for (const TiXmlElement* element = robot->FirstChildElement(); element != nullptr;
        element = element->NextSiblingElement()) {
     const std::string kind = element->Value();
-    if (kind.rfind("xacro:", 0) == 0) {
-      throw std::runtime_error(origin_ + ":" + std::to_string(element->Row()) + ": <" + kind +
-                               "> is a macro; turn this text into a URDF first, by xacro");
-    }
+    if (kind == "link") noteUnknown(*element);
     const char* name = element->Attribute("name");
     if (name == nullptr) continue;
     lines_.emplace(std::make_pair(kind, std::string(name)), element->Row());
@@ -87,6 +101,27 @@ std::string UrdfText::read(const std::string& text) {
   TiXmlPrinter printer;
   document.Accept(&printer);
   return printer.Str();
+}
+
+std::string UrdfText::lineOf(const TiXmlElement& element) const {
+  return origin_ + ":" + std::to_string(element.Row());
+}
+
+void UrdfText::requireNoMacros(const TiXmlElement& robot) const {
+  const auto is_macro = [](const std::string& name) { return name.rfind("xacro:", 0) == 0; };
+  if (const TiXmlElement* const macro = firstIn(robot, is_macro)) {
+    throw std::runtime_error(lineOf(*macro) + ": <" + macro->Value() +
+                             "> is a macro; turn this text into a URDF first, by xacro");
+  }
+}
+
+void UrdfText::noteUnknown(const TiXmlElement& link) {
+  const auto is_shape = [](const std::string& name) { return name == "geometry"; };
+  for (const TiXmlElement* element = link.FirstChildElement(); element != nullptr;
+       element = element->NextSiblingElement()) {
+    if (!isKnownInLinks(element->Value()) && firstIn(*element, is_shape) != nullptr)
+      unknown_.push_back("<" + element->ValueStr() + "> of " + lineOf(*element));
+  }
 }
 
 std::string UrdfText::place(const std::string& kind, const std::string& name) const {

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+class TiXmlElement;
+
 namespace sunlit::scene {
 
 class UrdfText {
@@ -19,6 +21,9 @@ class UrdfText {
   const urdf::ModelInterface& model() const { return *model_; }
   /// What urdfdom found odd, but passed, of what can be seen.
   const std::vector<std::string>& oddities() const { return oddities_; }
+  /// Elements of links that URDF has none of, and that have a shape, as a misspelt <visual> has one, with
+  /// their places.
+  const std::vector<std::string>& unknown() const { return unknown_; }
   /// Names of the links in the order of the text.
   const std::vector<std::string>& links() const { return links_; }
   /// "<origin>:<line>: <kind> <name>"; `kind` is link or joint.
@@ -27,11 +32,14 @@ class UrdfText {
  private:
   /// Notes links and joints; returns what is seen of the text.
   std::string read(const std::string& text);
+  void requireNoMacros(const TiXmlElement& robot) const;
+  void noteUnknown(const TiXmlElement& link);
+  std::string lineOf(const TiXmlElement& element) const;
   [[noreturn]] void fail(const std::vector<std::string>& complaints) const;
 
   std::string origin_;
   urdf::ModelInterfaceSharedPtr model_;
-  std::vector<std::string> oddities_;
+  std::vector<std::string> oddities_, unknown_;
   std::vector<std::string> links_;
   std::map<std::pair<std::string, std::string>, int> lines_;  ///< by kind and name
 };

@@ -152,6 +152,57 @@ TEST_F(ColladaNumbers, OfPicturesWithoutAnAddressBehindTheEndOfAnImageInAComment
             "1: <init_from>: is empty: name a picture there, or leave out the image");
 }
 
+/// The good file with these nodes in its scene, and these libraries.
+std::string withInstances(const std::string& nodes, const std::string& libraries) {
+  std::string text = kGood;
+  const std::string end = "</library_geometries>", scene_end = "</visual_scene>";
+  text.replace(text.find(scene_end), scene_end.size(), nodes + scene_end);
+  return text.replace(text.find(end), end.size(), end + libraries);
+}
+
+// Assimp says nothing of them, or refuses the file for one that is of another.
+TEST_F(ColladaNumbers, OfInstancesThatShowNothingAreNamed) {
+  for (const std::string instance :
+       {"<instance_geometry> #gone", "<instance_geometry> parts.dae#g", "<instance_geometry> ",
+        "<instance_controller> #gone", "<instance_controller> parts.dae#c", "<instance_node> #gone",
+        "<instance_node> parts.dae#n", "<instance_light> #gone", "<instance_light> parts.dae#l"}) {
+    const std::string element = instance.substr(0, instance.find('>')),
+                      url = instance.substr(instance.find(' ') + 1);
+    const std::string node = "\n<node id='o'>" + element + " url='" + url + "'/></node>";
+    const Scene scene = load(write("t.dae", withInstances(node, "")), {});
+    EXPECT_EQ(scene.triangleCount(), 1u) << instance;
+    ASSERT_EQ(scene.warnings.size(), 1u) << instance;
+    EXPECT_EQ(
+        scene.warnings[0],
+        "1 instances refer to nothing that is read from their file, and were left out: " + instance + ":3");
+  }
+}
+
+TEST_F(ColladaNumbers, OfInstancesThatShowWhatIsNoMeshAreNamed) {
+  std::string text = withInstances("<node id='o'><instance_geometry url='#h'/></node>", "");
+  const std::string end = "</library_geometries>";
+  text.insert(text.find(end), "<geometry id='h'><convex_mesh convex_hull_of='#g'/></geometry>");
+  const Scene scene = load(write("t.dae", text), {});
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0], "1 geometries are no <mesh>, and were left out: <convex_mesh> h:2");
+}
+
+TEST_F(ColladaNumbers, OfInstancesThatAreFoundOrNotShownAreNotNamed) {
+  const std::string lost = "<node id='unused'><instance_geometry url='#gone'/></node>";
+  const std::string libraries = "<library_nodes>" + lost +
+                                "<node id='used'><instance_geometry url='#g'/></node></library_nodes>"
+                                "<library_lights><light id='l'><technique_common><point><color>1 1 1</color>"
+                                "</point></technique_common></light></library_lights>";
+  const std::string nodes =
+      "<node name='called'><instance_light url='#l'/></node><node><instance_node url='#used'/></node>"
+      "<node><instance_node url='#called'/><instance_camera url='parts.dae#c'/></node>";
+  const Scene scene = load(write("t.dae", withInstances(nodes, libraries)), {});
+  EXPECT_EQ(scene.triangleCount(), 2u);
+  for (const std::string& warning : scene.warnings)
+    EXPECT_EQ(warning.find("instances"), std::string::npos) << warning;
+}
+
 // Assimp would show a solid of its own in their place.
 TEST_F(ColladaNumbers, WithoutGeometryThereIsNothing) {
   const std::string error = errorWith("<instance_geometry url='#g'/>", "<instance_geometry url='#gone'/>");

@@ -171,6 +171,43 @@ TEST_F(GltfShape, OfOtherVersionsIsAnErrorThatSaysWhatToDo) {
   }
 }
 
+TEST_F(GltfShape, OfALaterVersionThanIsReadIsRefused) {
+  Parts parts;
+  parts.version = R"("2.1","minVersion":"2.0")";
+  EXPECT_EQ(loaded(parts).triangleCount(), 1u);
+  parts.version = R"("2.1","minVersion":"2.1")";
+  EXPECT_EQ(errorOfParts(parts),
+            pathOf("t.gltf") + ": this file needs glTF 2.1, as its minVersion says, and only 2.0 is read");
+}
+
+// Assimp would pass over these values.
+TEST_F(GltfShape, OfNodesAndMaterialsOfTheWrongFormIsRefused) {
+  const auto wrong = [&](const std::string& place, const std::string& key, const std::string& value) {
+    const std::string told = "\"" + key + "\":" + value;
+    Parts parts;
+    parts.primitive = R"("material":0,"attributes":{"POSITION":0})";
+    const bool of_node = place == "node 0", is_base = key == "baseColorFactor";
+    if (of_node) parts.nodes = R"([{"mesh":0,)" + told + "}]";
+    parts.more = R"("materials":[{)" +
+                 (of_node   ? ""
+                  : is_base ? R"("pbrMetallicRoughness":{)" + told + "}"
+                            : told) +
+                 "}],";
+    const std::string error = errorOfParts(parts);
+    const std::string begin =
+        pathOf("t.gltf") + ": " + place + " has " + key + " " + value + ", but it must be ";
+    EXPECT_EQ(error.find(begin), 0u) << error;
+    return error.substr(std::min(begin.size(), error.size()));
+  };
+  EXPECT_EQ(wrong("node 0", "translation", "[1.5,0]"), "3 numbers");
+  EXPECT_EQ(wrong("node 0", "scale", "2"), "3 numbers");
+  EXPECT_EQ(wrong("node 0", "rotation", R"([0,0,0,"1"])"), "4 numbers");
+  EXPECT_EQ(wrong("node 0", "matrix", "[1,0,0,0,0,1,0,0,0,0,1,0,1.5,0,0]"), "16 numbers");
+  EXPECT_EQ(wrong("material 0", "emissiveFactor", "[1,1,1,1]"), "3 numbers");
+  EXPECT_EQ(wrong("material 0", "baseColorFactor", "[1,1,1]"), "4 numbers");
+  EXPECT_EQ(wrong("material 0", "alphaMode", "\"blend\""), "OPAQUE, MASK or BLEND");
+}
+
 TEST_F(GltfShape, ThatNeedsWhatIsNotReadSaysSo) {
   Parts parts;
   parts.uri = "gone.bin";

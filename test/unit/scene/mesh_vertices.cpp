@@ -149,5 +149,16 @@ TEST_F(MeshVertices, OfStlHaveNoColours) {
   }
 }
 
+TEST_F(MeshVertices, OfStlAreAsManyAsItCounts) {
+  const std::string whole = binaryStl("solid", 0);
+  for (const std::string& tail : {std::string("COLOR=1"), std::string(50, '\0'), std::string(1, '\0')}) {
+    const std::string file = write("part.stl", whole + tail);
+    EXPECT_EQ(shownBy(file).triangles.size(), 1u) << tail.size();
+  }
+  const std::string file = write("part.stl", whole.substr(0, whole.size() - 1));
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { robotOf(file); }),
+            file + ": this STL file is cut short: it counts 1 faces, and has 0");
+}
+
 }  // namespace
 }  // namespace sunlit::scene

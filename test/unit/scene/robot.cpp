@@ -137,6 +137,36 @@ TEST(Urdf, WhatNobodySeesStopsNothing) {
   EXPECT_TRUE(robot.warnings.empty());
 }
 
+TEST(Urdf, UnknownElementsOfLinksWithAShapeAreNamed) {
+  const std::string shape = "<geometry>" + kBox + "</geometry>";
+  const auto warningsWith = [&](const std::string& more) {
+    return parsed(link("base", visual(kBox) + more)).warnings;
+  };
+  const std::vector<std::string> warnings = warningsWith("\n<visul>" + shape + "</visul>");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "1 elements of links have a <geometry>, but are unknown, and were left out: <visul> of "
+            "some.urdf:4");
+  const std::string checking = "self_collision_checking";
+  for (const std::string& known :
+       {"<" + checking + ">" + shape + "</" + checking + ">",
+        "<drake:proxy xmlns:drake='d'>" + shape + "</drake:proxy>", std::string("<contact/><gravity/>")})
+    EXPECT_TRUE(warningsWith(known).empty()) << known;
+}
+
+TEST(Urdf, LinksThatDoNotHangFromTheRootAreAnError) {
+  const auto held = [](const std::string& name, const std::string& parent, const std::string& child) {
+    return "<joint name='" + name + "' type='fixed'><parent link='" + parent + "'/><child link='" + child +
+           "'/></joint>\n";
+  };
+  const std::string links = link("base", visual(kBox)) + link("arm") + link("hand", visual(kBox));
+  const std::string ring = held("j", "arm", "hand") + held("k", "hand", "arm");
+  EXPECT_EQ(errorOfText(robotText(links + ring)),
+            "some.urdf:4: link arm: no joints lead to it from link base, the root, nor to link hand");
+  EXPECT_EQ(errorOfText(robotText(links + ring + held("l", "base", "arm"))),
+            "some.urdf:4: link arm: it is the child of joints k and l, but must be that of one");
+}
+
 TEST(Urdf, MaterialsThatAreNowhereAreOneLine) {
   const std::string grey = visual(kBox, "<material name='grey'/>");
   const Robot robot = parsed(link("base", grey) + link("a", grey) + joint("j", "fixed", "a", ""));
@@ -237,6 +267,8 @@ TEST(Urdf, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_EQ(errorOfText("<sdf/>"), "some.urdf:1: there is no <robot> element in this text");
   EXPECT_NE(errorOfText(robotText("<xacro:include filename='x'/>")).find("some.urdf:3: <xacro:include>"),
             std::string::npos);
+  EXPECT_EQ(errorOfText(robotText(link("base", visual(kBox) + "\n<xacro:mast height='3'/>"))),
+            "some.urdf:4: <xacro:mast> is a macro; turn this text into a URDF first, by xacro");
   const std::string no_parent = errorOfText(
       robotText(link("base", visual(kBox)) +
                 "<joint name='j' type='fixed'><parent link='nowhere'/><child link='base'/></joint>"));

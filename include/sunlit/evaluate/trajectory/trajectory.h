@@ -33,8 +33,8 @@ inline constexpr double kQuaternionTolerance = 1e-3;
 /// Stamps keep every nanosecond, in whatever form ("1403715529.112143517", "1.403715529112143517e+09");
 /// finer digits are rounded. Throws std::runtime_error "file:line: what, and what is expected" for a line of
 /// another form, a number that is not finite, a coordinate beyond ±1e9 m, a stamp that is not above the one
-/// before or beyond ±9.2e9 s in the unit of the file, nanoseconds that would be more than 5000 poses a second, a quaternion that is not of unit length; and for a file
-/// that cannot be read or holds no pose.
+/// before or beyond ±9.2e9 s in the unit of the file, nanoseconds that would be more than 5000 poses a
+/// second, a quaternion that is not of unit length; and for a file that cannot be read or holds no pose.
 ///
 /// Some published files, such as the truth of TUM's freiburg2_desk, have a stamp twice. With `repeated` poses
 /// after the first of a stamp are left out, and their stamps added to it, instead of an error.
