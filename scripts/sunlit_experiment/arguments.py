@@ -504,6 +504,10 @@ def robot(text, robots):
     return found
 
 
+def dangling_link(path):
+    return os.path.islink(path) and not os.path.exists(path)
+
+
 def output_folder(text):
     """Made here, so that a folder that cannot be written stops everything before it begins."""
     if not text.strip():  # which would be the current one
@@ -514,7 +518,8 @@ def output_folder(text):
         with tempfile.TemporaryFile(dir=path):
             pass
     except OSError as error:
-        raise BadArgument("output", text, f"a folder that can be written ({path}: {error.strerror})") from None
+        why = "a link to what is not there" if dangling_link(path) else error.strerror
+        raise BadArgument("output", text, f"a folder that can be written ({path}: {why})") from None
     return path
 
 

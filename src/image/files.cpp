@@ -24,6 +24,17 @@ namespace {
   throw std::runtime_error(path + ": " + what + ": " + reasonOf(errno));
 }
 
+/// The first of the links on the way to `path` that leads to what is not there; empty where none does.
+std::filesystem::path danglingLinkOf(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::path way;
+  for (const std::filesystem::path& name : path) {
+    way /= name;
+    if (std::filesystem::is_symlink(way, error) && !std::filesystem::exists(way, error)) return way;
+  }
+  return {};
+}
+
 /// Whether a file of this name is an UnfinishedFile of a process that does not run here. It may run in
 /// another container, or on another computer.
 bool hasNoProcess(const std::string& name) {
@@ -161,6 +172,17 @@ void moveIntoPlace(const std::string& finished, const std::string& path) {
     static_cast<void>(::fsync(descriptor));
     ::close(descriptor);
   }
+}
+
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && std::filesystem::is_directory(folder)) return;
+  std::string reason = reasonOf(error ? error.value() : ENOTDIR);
+  if (const std::filesystem::path link = danglingLinkOf(folder); !link.empty())
+    reason = link.string() + " is a link to " + std::filesystem::read_symlink(link).string() +
+             ", which is not there";
+  throw std::runtime_error(folder + ": the folder cannot be made: " + reason);
 }
 
 void writeFileAtomically(const std::string& path, const std::string& bytes) {

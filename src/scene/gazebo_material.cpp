@@ -248,9 +248,17 @@ void takeUnitColor(Reading& reading) {
   if (reading.textures.empty()) reading.material.diffuse = reading.unit_color;
 }
 
+void nameUnsetVariables(const ScriptWords& line, ScriptMaterial& material) {
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (line[i].compare(0, 1, "$") == 0 && line[i - 1] != "set")
+      material.lost.insert("variable " + line[i] + ", which is not set before");
+  }
+}
+
 /// One line, or several written as one: a keyword may follow a brace.
 void readLine(const ScriptWords& line, Reading& reading) {
   ScriptMaterial& material = reading.material;
+  nameUnsetVariables(line, material);
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (i > 0 && line[i - 1] != "{" && line[i - 1] != "}") continue;
     const ScriptWords words(line.begin() + static_cast<std::ptrdiff_t>(i), line.end());

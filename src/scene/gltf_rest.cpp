@@ -1,5 +1,6 @@
 #include "scene/gltf_rest.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -32,6 +33,29 @@ void nameAttributes(const json& root, const std::string& file, std::vector<std::
         if (attribute[0] != '_' && elementsOf(root, accessor) != vertices)
           lost.push_back(name + ": its " + attribute + ", of which there are not as many as of its vertices");
       }
+    }
+  }
+}
+
+/// Of targets that are blended in: what is blended are places and normals.
+void nameTargets(const json& root, const std::string& file, std::vector<std::string>& lost) {
+  std::size_t number = 0;
+  for (const json& mesh : child(root, "meshes")) {
+    const std::string name = mesh.value("name", "mesh " + std::to_string(number++)) + " of " + file;
+    const json& weights = child(mesh, "weights");
+    const bool is_blended =
+        std::any_of(weights.begin(), weights.end(), [](const json& weight) { return weight != 0; });
+    std::set<std::string> others;
+    for (const json& primitive : child(mesh, "primitives")) {
+      for (const json& target : child(primitive, "targets")) {
+        for (const auto& [attribute, accessor] : target.items()) {
+          if (attribute.compare(0, 6, "COLOR_") == 0 || attribute.compare(0, 9, "TEXCOORD_") == 0)
+            others.insert(attribute);
+        }
+      }
+    }
+    for (const std::string& other : others) {
+      if (is_blended) lost.push_back(name + ": " + other + " of its morph targets");
     }
   }
 }
@@ -106,6 +130,7 @@ std::vector<std::string> shapesNotRead(const json& root, const std::string& file
         lost.push_back(name + ": a skin of its own for a mesh that it shares");
     }
     nameAttributes(root, file, lost);
+    nameTargets(root, file, lost);
   } catch (const std::exception& error) {
     lost.push_back(file + ": " + error.what());
   }

@@ -241,6 +241,8 @@ ObjLibraries readLibraries(const std::string& file, SceneBuilder& builder) {
   for (const std::string& material : libraries.missing)
     builder.warn("materials are not there, and neutral ones stand for them", material);
   for (const std::string& material : libraries.not_rendered) builder.warn(kNotRendered, material);
+  for (const std::string& shape : libraries.not_read)
+    builder.warn("shapes of OBJ are none of three corners or more, they are left out", shape);
   for (const std::string& library : libraries.placed)
     builder.warn("libraries of OBJ shift textures or repeat them by -o, -s or -t, which is not read",
                  library);

@@ -35,10 +35,10 @@ void requireNoComma(const std::string& line, std::size_t number, const std::stri
                              "' has a comma; decimals stand behind a point");
 }
 
-/// How many words a line of a vertex has behind its first one; 0 of other lines, and of one that goes on in
+/// How many words a line whose first is `letter` has behind it; 0 of other lines, and of one that goes on in
 /// the next.
-std::size_t wordsOfVertex(const std::string& line) {
-  if (line.size() < 2 || line[0] != 'v' || !isBlank(line[1])) return 0;
+std::size_t wordsBehind(char letter, const std::string& line) {
+  if (line.size() < 2 || line[0] != letter || !isBlank(line[1])) return 0;
   const std::size_t end = std::min(line.find('#'), line.size());
   std::size_t words = 0;
   for (std::size_t i = 1; i < end; ++i) {
@@ -69,16 +69,16 @@ std::string divided(const std::string& line) {
 std::string withColorsOfAll(const std::string& text) {
   bool any_colored = false, any_bare = false;
   forEachObjLine(text, [&](const std::string& line, std::size_t) {
-    const std::size_t words = wordsOfVertex(line);
+    const std::size_t words = wordsBehind('v', line);
     any_colored = any_colored || words == 6;
     any_bare = any_bare || words == 3 || words == 4;
   });
   if (!any_colored || !any_bare) return text;
   std::string colored;
   forEachObjLine(text, [&](const std::string& line, std::size_t) {
-    const std::size_t words = wordsOfVertex(line);
+    const std::size_t words = wordsBehind('v', line);
     const std::string three = words == 4 ? divided(line) : line;
-    colored += (wordsOfVertex(three) == 3 ? inWhite(three) : line) + '\n';
+    colored += (wordsBehind('v', three) == 3 ? inWhite(three) : line) + '\n';
   });
   return colored;
 }
@@ -145,6 +145,14 @@ std::string withPlainLines(const std::string& text, const std::string& file) {
   return plain;
 }
 
+/// What a line of a shape holds that is lost; empty where nothing is.
+std::string lostShapeOf(const std::string& line) {
+  for (const char* const word : {"call", "curv", "curv2", "surf"})
+    if (!behindWord(word, line).empty()) return word;
+  const std::size_t corners = wordsBehind('f', line);
+  return corners == 1 || corners == 2 ? "a face of " + std::to_string(corners) : "";
+}
+
 /// Throws std::runtime_error naming `object`, too, where it cannot be read.
 MtlContent contentOfLibrary(const std::string& library, const std::filesystem::path& object) {
   try {
@@ -186,6 +194,8 @@ ObjLibraries librariesOfObj(const std::string& file) {
   const std::filesystem::path path(file);
   forEachObjLine(contentOf(file), [&](const std::string& line, std::size_t number) {
     requireNoComma(line, number, file);
+    if (const std::string lost = lostShapeOf(line); !lost.empty())
+      libraries.not_read.push_back(lost + " at " + file + ":" + std::to_string(number));
     if (const std::string material = behindWord("usemtl", line); !material.empty()) used.insert(material);
     for (const std::string& name : librariesIn(behindWord("mtllib", line), file)) {
       if (!addLibrary(path, name, libraries)) missing += (missing.empty() ? "" : ", ") + name;

@@ -25,6 +25,7 @@ struct ObjLibraries {
   std::set<std::string> materials;        ///< names of those that they have
   std::vector<std::string> missing;       ///< materials that it uses; each with what is known of why
   std::vector<std::string> not_rendered;  ///< MtlContent::not_rendered
+  std::vector<std::string> not_read;      ///< what of its shapes is lost: "WHAT at FILE:LINE"
   std::vector<std::string> placed;        ///< libraries that shift textures or say how often they repeat
 };
 /// Throws std::runtime_error naming the line where decimals stand behind a comma: Assimp cuts them off there.

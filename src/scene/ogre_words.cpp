@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <sstream>
 #include <utility>
 
 namespace sunlit::scene {
@@ -44,7 +45,7 @@ class ScriptReader {
   void readQuoted() {
     endWord();
     const std::size_t end = std::min(text_.find_first_of("\"\n", at_ + 1), text_.size());
-    words_.push_back(text_.substr(at_ + 1, end - at_ - 1));
+    addWord(text_.substr(at_ + 1, end - at_ - 1));
     at_ = end < text_.size() && text_[end] == '"' ? end + 1 : end;
   }
 
@@ -62,14 +63,32 @@ class ScriptReader {
   void endWord() {
     if (word_.empty()) return;
     const auto known = variables_.find(word_);
-    const bool is_set = words_.size() == 1 && words_.front() == "set";
-    words_.push_back(known == variables_.end() || is_set ? word_ : known->second);
+    if (known == variables_.end() || (!words_.empty() && words_.back() == "set"))
+      addWord(word_);
+    else
+      addValue(known->second);
     word_.clear();
+  }
+
+  /// As words of their own, such as the numbers of a colour; a picture's name and a value to set stay whole.
+  void addValue(const std::string& value) {
+    const bool to_set = words_.size() > 1 && words_[words_.size() - 2] == "set";
+    if (to_set || (!words_.empty() && words_.back() == "texture")) return addWord(value);
+    std::istringstream parts(value);
+    for (std::string part; parts >> part;) addWord(part);
+  }
+
+  /// The third of `set $name value`, which may follow a brace, sets it.
+  void addWord(const std::string& word) {
+    words_.push_back(word);
+    if (words_.size() < 3) return;
+    const auto set = words_.end() - 3;
+    const bool begins = set == words_.begin() || *(set - 1) == "{" || *(set - 1) == "}";
+    if (begins && *set == "set") variables_[*(set + 1)] = word;
   }
 
   void endLine() {
     endWord();
-    if (words_.size() > 2 && words_[0] == "set") variables_[words_[1]] = words_[2];
     if (!words_.empty()) lines_.push_back(std::move(words_));
     words_.clear();
   }

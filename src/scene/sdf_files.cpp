@@ -20,6 +20,7 @@
 #include "scene/sdf_model_folder.h"
 #include "scene/sdf_parse.h"
 #include "scene/sdf_pose.h"
+#include "scene/sdf_state.h"
 #include "scene/sdf_urdf.h"
 #include "scene/sdf_xml.h"
 #include "sunlit/quantity/range.h"

@@ -51,12 +51,11 @@ const std::map<std::string, Children> kChildren = {
       {}}},
 };
 
+/// Shapes of numbers alone, and what of them has none below 0.
+const Words kSolids = {"box", "capsule", "cone", "cylinder", "ellipsoid", "plane", "sphere"};
+const Words kLengths = {"length", "radii", "radius", "size"};
+
 const Words kLightTypes = {"point", "spot", "directional"};
-/// Elements of numbers alone.
-const Words kOfNumbers = {"pose",      "size",      "radius",  "length",       "scale",       "radii",
-                          "point",     "normal",    "height",  "width",        "diffuse",     "ambient",
-                          "specular",  "emissive",  "range",   "constant",     "linear",      "quadratic",
-                          "direction", "intensity", "falloff", "transparency", "inner_angle", "outer_angle"};
 
 /// The newest version that libsdformat 12 reads is 1.9, and the elements above are those from 1.4 on.
 constexpr int kNewest = 9;
@@ -84,16 +83,6 @@ std::size_t numbersIn(const std::string& text) {
   std::size_t numbers = 0;
   for (double number; words >> number;) ++numbers;
   return words.eof() ? numbers : 0;
-}
-
-/// Whether numbers end in something else, of which libsdformat says nothing: "1,5" is 1, "90deg" 90.
-bool hasTail(const std::string& text) {
-  std::istringstream words(text);
-  double number = 0.0;
-  if (!(words >> number)) return false;
-  while (words >> number) {
-  }
-  return !words.eof();
 }
 
 class Mender {
@@ -159,10 +148,7 @@ class Mender {
 
   void mendBelow(XMLElement& parent) {
     const std::string kind = parent.Value();
-    if (kOfNumbers.count(kind) == 1 && parent.GetText() != nullptr && hasTail(parent.GetText()))
-      builder_.warn(
-          "numbers end in what is none, and that is passed over (decimals have a point, blanks part numbers)",
-          described(parent, file_) + " is " + parent.GetText());
+    remarkOnNumbers(parent, file_, builder_);
     if (kind == "sdf") nameWorlds(parent);
     if (kind == "model") mendModel(parent);
     if (kind == "pose") mendPose(parent);
@@ -236,9 +222,36 @@ class Mender {
     builder_.warn("poses have less than six numbers, the others are 0", text + " at " + placeOf(file_, pose));
   }
 
-  static void mendVisual(XMLElement& visual) {
+  void mendVisual(XMLElement& visual) {
     XMLElement& geometry = childIn(visual, "geometry");
     if (geometry.FirstChildElement() == nullptr) newChildIn(geometry, "empty");
+    std::size_t shapes = 0;
+    for (XMLElement* shape : childrenOf(geometry)) {
+      const std::string kind = shape->Value();
+      const bool is_one_of_many = kind == "polyline" && shape->PreviousSiblingElement("polyline") != nullptr;
+      if (!is_one_of_many) ++shapes;
+      for (XMLElement* part : childrenOf(*shape)) {
+        if (kSolids.count(kind) == 1 && kLengths.count(part->Value()) == 1) mendLengths(*part);
+      }
+    }
+    if (shapes > 1)
+      builder_.warn("geometries hold several shapes, one of them is drawn", described(geometry, file_));
+  }
+
+  void mendLengths(XMLElement& lengths) {
+    const std::string text = lengths.GetText() == nullptr ? "" : lengths.GetText();
+    std::istringstream words(text);
+    std::string positive;
+    bool has_negative = false;
+    for (std::string word; words >> word;) {
+      const bool is_negative = word.size() > 1 && word[0] == '-';
+      positive += (positive.empty() ? "" : " ") + word.substr(is_negative ? 1 : 0);
+      has_negative |= is_negative;
+    }
+    if (!has_negative) return;
+    lengths.SetText(positive.c_str());
+    builder_.warn("lengths are negative, they are taken as positive",
+                  described(lengths, file_) + " is " + text);
   }
 
   /// Nothing refers to a world by its name, and many are called "world", which is reserved.
@@ -315,15 +328,6 @@ class Mender {
   Words referenced_;
 };
 
-/// A state has them among its models.
-void leaveOutActors(XMLElement& world, XMLElement& state) {
-  std::set<std::string> actors;
-  for (const XMLElement* actor : childrenOf(world, "actor")) actors.insert(attributeOf(*actor, "name"));
-  for (XMLElement* model : childrenOf(state, "model")) {
-    if (actors.count(attributeOf(*model, "name")) > 0) state.DeleteChild(model);
-  }
-}
-
 }  // namespace
 
 bool isTakenOut(const XMLElement& element, const XMLElement& sdf) {
@@ -368,24 +372,6 @@ void keepFirstWorld(XMLElement& sdf, const std::string& file, SceneBuilder& buil
                  attributeOf(*world, "name") + " at " + placeOf(file, *world));
     sdf.DeleteChild(world);
   }
-}
-
-std::unique_ptr<tinyxml2::XMLDocument> takeState(XMLElement& sdf) {
-  std::unique_ptr<tinyxml2::XMLDocument> taken;
-  for (XMLElement* world : childrenOf(sdf, "world")) {
-    for (XMLElement* state : childrenOf(*world, "state")) {
-      if (!taken) {
-        for (XMLElement* insertions : childrenOf(*state, "insertions")) {
-          for (XMLElement* added : childrenOf(*insertions)) world->InsertEndChild(added);
-        }
-        taken = std::make_unique<tinyxml2::XMLDocument>();
-        taken->InsertEndChild(state->DeepClone(taken.get()));
-        leaveOutActors(*world, *taken->FirstChildElement());
-      }
-      world->DeleteChild(state);
-    }
-  }
-  return taken;
 }
 
 }  // namespace sunlit::scene

@@ -3,7 +3,6 @@
 
 #include <tinyxml2.h>
 
-#include <memory>
 #include <string>
 
 #include "scene/scene_builder.h"
@@ -34,9 +33,5 @@ bool mayRemain(const std::string& parent, const std::string& child);
 /// Leaves the first world of `sdf`, the root element of `file`: each of several has a place of its own. The
 /// others are a warning of `builder`.
 void keepFirstWorld(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& builder);
-
-/// Takes the <state> elements out of the worlds in `sdf`, and gives the first one, in a document of its own,
-/// or null where there is none. What its <insertions> add becomes part of its world.
-std::unique_ptr<tinyxml2::XMLDocument> takeState(tinyxml2::XMLElement& sdf);
 
 }  // namespace sunlit::scene

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <sstream>
 
 #include "scene/sdf_xml.h"
@@ -14,6 +15,32 @@ using tinyxml2::XMLElement;
 
 /// The flags of a visual that has none.
 constexpr std::uint32_t kEveryCamera = 0xFFFFFFFF;
+
+/// Elements of numbers alone; in a height map's <texture> two of them are pictures.
+const std::set<std::string> kOfNumbers = {
+    "pose",         "size",         "radius",        "length",    "scale",      "radii",     "point",
+    "normal",       "height",       "width",         "diffuse",   "ambient",    "specular",  "emissive",
+    "range",        "constant",     "linear",        "quadratic", "direction",  "intensity", "falloff",
+    "transparency", "inner_angle",  "outer_angle",   "roughness", "metalness",  "pos",       "min_height",
+    "fade_dist",    "latitude_deg", "longitude_deg", "elevation", "heading_deg"};
+const std::set<std::string> kPicturesOfTerrain = {"diffuse", "normal"};
+
+bool isOfNumbers(const XMLElement& element) {
+  const std::string kind = element.Value();
+  const XMLElement* parent = element.Parent()->ToElement();
+  const bool of_texture = parent != nullptr && std::string(parent->Value()) == "texture";
+  return kOfNumbers.count(kind) == 1 && !(of_texture && kPicturesOfTerrain.count(kind) == 1);
+}
+
+/// Whether numbers end in something else, of which libsdformat says nothing: "1,5" is 1, "90deg" 90.
+bool hasTail(const std::string& text) {
+  std::istringstream words(text);
+  double number = 0.0;
+  if (!(words >> number)) return false;
+  while (words >> number) {
+  }
+  return !words.eof();
+}
 
 /// Of any grey: Gazebo classic writes 0.7, its successor 0.8.
 bool isUsualBackground(const XMLElement& background) {
@@ -60,7 +87,8 @@ class Remarks {
   }
 
   /// Worlds are made with zeros. Where the rest is, siteOf() tells.
-  void onPlace(const XMLElement& element) {
+  void onPlace(XMLElement& element) {
+    for (const XMLElement* part : childrenOf(element)) remarkOnNumbers(*part, file_, builder_);
     const double heading = childNumber(element, "heading_deg");
     if (heading != 0.0)
       builder_.warn(
@@ -74,6 +102,13 @@ class Remarks {
 };
 
 }  // namespace
+
+void remarkOnNumbers(const XMLElement& element, const std::string& file, SceneBuilder& builder) {
+  if (isOfNumbers(element) && element.GetText() != nullptr && hasTail(element.GetText()))
+    builder.warn(
+        "numbers end in what is none, and that is passed over (decimals have a point, blanks part numbers)",
+        described(element, file) + " is " + element.GetText());
+}
 
 void remarkOnSdf(XMLElement& sdf, const std::string& file, SceneBuilder& builder) {
   Remarks remarks(file, builder);

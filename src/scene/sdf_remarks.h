@@ -14,4 +14,7 @@ namespace sunlit::scene {
 /// `builder`. What worlds have as they are made is nothing that they ask for.
 void remarkOnSdf(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& builder);
 
+/// Names numbers of `element`, where it is one of numbers alone, that end in something else.
+void remarkOnNumbers(const tinyxml2::XMLElement& element, const std::string& file, SceneBuilder& builder);
+
 }  // namespace sunlit::scene

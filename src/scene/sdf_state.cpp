@@ -42,7 +42,34 @@ void forEach(const XMLElement& parent, const char* kind, const Each& each) {
     each(*one);
 }
 
+/// A state has them among its models.
+void leaveOutActors(XMLElement& world, XMLElement& state) {
+  std::set<std::string> actors;
+  for (const XMLElement* actor : childrenOf(world, "actor")) actors.insert(attributeOf(*actor, "name"));
+  for (XMLElement* model : childrenOf(state, "model")) {
+    if (actors.count(attributeOf(*model, "name")) > 0) state.DeleteChild(model);
+  }
+}
+
 }  // namespace
+
+std::unique_ptr<tinyxml2::XMLDocument> takeState(XMLElement& sdf) {
+  std::unique_ptr<tinyxml2::XMLDocument> taken;
+  for (XMLElement* world : childrenOf(sdf, "world")) {
+    for (XMLElement* state : childrenOf(*world, "state")) {
+      if (!taken) {
+        for (XMLElement* insertions : childrenOf(*state, "insertions")) {
+          for (XMLElement* added : childrenOf(*insertions)) world->InsertEndChild(added);
+        }
+        taken = std::make_unique<tinyxml2::XMLDocument>();
+        taken->InsertEndChild(state->DeepClone(taken.get()));
+        leaveOutActors(*world, *taken->FirstChildElement());
+      }
+      world->DeleteChild(state);
+    }
+  }
+  return taken;
+}
 
 SdfState::SdfState(const tinyxml2::XMLDocument& document, const std::string& file) : file_(file) {
   const XMLElement& state = *document.FirstChildElement("state");

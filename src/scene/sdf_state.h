@@ -5,12 +5,17 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace sunlit::scene {
+
+/// Takes the <state> elements out of the worlds in `sdf`, and gives the first one, in a document of its own,
+/// or null where there is none. What its <insertions> add becomes part of its world.
+std::unique_ptr<tinyxml2::XMLDocument> takeState(tinyxml2::XMLElement& sdf);
 
 /// Gazebo classic writes poses of models, links and lights in the world, and a state overrules all else that
 /// the file says of where they are. Models, links and lights go by full names, "shelf::board".

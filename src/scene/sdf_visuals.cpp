@@ -167,13 +167,15 @@ std::optional<Mesh> SdfVisuals::shapeOf(const sdf::Visual& visual, const std::st
   }
   std::optional<Mesh> shape = geometry == nullptr ? std::nullopt : primitive(*geometry);
   if (!shape && element) shape = polylineOf(*element, file_ + ": visual " + name);
-  if (shape) {
+  if (shape && !shape->triangles.empty()) {
     materials_.put(material, *shape);
-  } else {
-    const bool image = element && element->HasElement("image");
-    builder_.warn("visuals have no shape that can be drawn", name + (image ? " (an <image>)" : ""));
+    return shape;
   }
-  return shape;
+  const char* const what = element && element->HasElement("image") ? " (an <image>)"
+                           : shape                                 ? " (outlines that enclose nothing)"
+                                                                   : "";
+  builder_.warn("visuals have no shape that can be drawn", name + what);
+  return std::nullopt;
 }
 
 void SdfVisuals::addRoads(const sdf::World& world) {

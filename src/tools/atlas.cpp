@@ -98,7 +98,7 @@ class Atlas {
     if (wanted.empty()) return;
     estimate();
     recipe_.note(camera_->fingerprint());
-    makeFolder(folder_.observations());
+    image::makeFolder(folder_.observations());
     camera_->writeLights(folder_.lights());
     StageProgress progress("observing " + std::to_string(poses) + " poses", poses);
     for (const ObserveUnit* unit : wanted)
@@ -122,7 +122,7 @@ class Atlas {
     StageProgress progress("comparing " + std::to_string(cells) + " cells", cells);
     for (const CompareUnit* unit : wanted) {
       const evaluate::AtlasMap map(index, options_.atlas, {unit->map, "", unit->method});
-      makeFolder(folder_.cellsOf(*unit));
+      image::makeFolder(folder_.cellsOf(*unit));
       for (const std::string& query : folder_.missingQueries(*unit)) {
         evaluate::writeAtlasRows(folder_.cell({unit->map, query, unit->method}), map.find(query));
         progress.step();

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "sunlit/image/files.h"
-#include "tools/output_folder.h"
 
 namespace sunlit::tools {
 
@@ -77,7 +76,7 @@ void runBySlurm(const AtlasRunOptions& options, const AtlasFolder& folder) {
   const std::size_t observers = std::min(most, folder.observeUnits().size());
   const std::size_t comparers = std::min(most, folder.compareUnits().size());
   const std::string scripts = fs::absolute(folder.file("slurm")).string();
-  makeFolder(scripts);
+  image::makeFolder(scripts);
   std::string after;
   for (const Job& job :
        {Job{"observe", observers, shareOf("observe", observers)},

@@ -18,7 +18,6 @@
 #include "tools/compare_light_options.h"
 #include "tools/comparison_files.h"
 #include "tools/every_nth_pixel.h"
-#include "tools/output_folder.h"
 #include "tools/path_arguments.h"
 #include "tools/terminal.h"
 
@@ -137,7 +136,7 @@ void tellProgress(std::size_t done, std::size_t views, double elapsed_s, std::op
 }
 
 void run(const CompareLightOptions& options) {
-  makeFolder(options.output);
+  image::makeFolder(options.output);
   const auto load_start = Clock::now();
   const light::World dry =
       studio::loadWorld(options.world, studio::cacheOf(options.bake).folder, std::nullopt, onTerminal());

@@ -14,7 +14,6 @@
 #include "sunlit/image/files.h"
 #include "sunlit/studio/command_line.h"
 #include "tools/evaluate_pair_options.h"
-#include "tools/output_folder.h"
 
 namespace sunlit::tools {
 namespace {
@@ -73,7 +72,7 @@ void evaluatePair(const EvaluatePairOptions& options) {
   std::vector<evaluate::VerifiedRow> rows;
   for (std::size_t i = 0; i < verified.size(); ++i)
     rows.push_back({options.a, options.b, options.verify.detectors[i], verified[i]});
-  makeFolder(options.output);
+  image::makeFolder(options.output);
   evaluate::writeVerified(file, rows);
   print(rows);
   std::printf("%s\n", file.c_str());

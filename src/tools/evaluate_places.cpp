@@ -12,6 +12,7 @@
 
 #include "sunlit/evaluate/places/place_comparison.h"
 #include "sunlit/evaluate/places/place_files.h"
+#include "sunlit/image/files.h"
 #include "sunlit/quantity/columns.h"
 #include "sunlit/studio/command_line.h"
 #include "tools/output_folder.h"
@@ -185,7 +186,7 @@ void evaluatePlaces(const PlacesOptions& options) {
     const FoundPlaces found = comparison.find(method);
     progress.end();
     rows.push_back({method.name(), placeScores(found.distances, found.guesses, options.tolerance)});
-    makeFolder(options.output);
+    image::makeFolder(options.output);
     const std::string file = options.output + "/" + matrixName(method);
     evaluate::writeMatrix(file + ".csv", found.distances, {queries.names, map.names});
     evaluate::drawMatrix(file + ".png", found.distances);

@@ -26,12 +26,6 @@ void requireFolderCanBeMade(const std::string& folder) {
   if (::access(there.c_str(), W_OK | X_OK) != 0) fail(folder, {errno, std::generic_category()});
 }
 
-void makeFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail(folder, error);
-}
-
 std::string anythingIn(const std::string& folder) {
   constexpr const char* kUnfinished = ".part";  // as image::writeFileAtomically() has it
   std::error_code error;                        // no such folder: nothing

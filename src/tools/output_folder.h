@@ -9,9 +9,6 @@ namespace sunlit::tools {
 /// can be told without making it.
 void requireFolderCanBeMade(const std::string& folder);
 
-/// With all above it, where it is not there yet. Throws as above.
-void makeFolder(const std::string& folder);
-
 /// The first of what `folder` holds, by name; empty if there is nothing. What is still being written does not
 /// count: another process may just be at it.
 std::string anythingIn(const std::string& folder);

@@ -116,7 +116,7 @@ void FolderRecipe::note(const std::string& fingerprint) const {
         ": its pictures show another world: a file that this one is made of, as a mesh or "
         "a texture, or sunlit itself has changed; take another folder");
   }
-  makeFolder(folder_);
+  image::makeFolder(folder_);
   std::string text =
       "# How these pictures were made. " + tool_ + " adds to them only with the same options and version.\n";
   text += made_by_ + '\n';

@@ -195,7 +195,7 @@ class EvaluatePair(unittest.TestCase):
         self.assertIn("pictures named: 3, but must be two", self.refused(*out, picture, picture, picture))
         self.assertIn("--out DIR is missing", self.refused(picture, picture))
         self.assertIn("no option --homograph;", self.refused(*out, "--homograph", "H.txt", picture, picture))
-        self.assertIn("cannot be made or written", self.refused("--out", picture + "/below", picture, picture))
+        self.assertIn("the folder cannot be made", self.refused("--out", picture + "/below", picture, picture))
 
     def expected(self):
         """The table of the data's README: (detector, pair) -> its other cells."""

@@ -705,7 +705,11 @@ class LocaliseBags(unittest.TestCase):
             self.assertIn("--map and --query need each other", self.refused(*arguments))
         self.assertIn("absent.bag: is not a bag that can be read", self.refused("--map", self.path("absent.bag"), "--query", dusk))
         pathlib.Path(self.path("text.bag")).write_text("no bag")
-        self.assertIn("text.bag: is not a bag that can be read", self.refused("--map", noon, "--query", self.path("text.bag")))
+        self.assertIn("text.bag: is not a bag: it does not begin with #ROSBAG V2.0",
+                      self.refused("--map", noon, "--query", self.path("text.bag")))
+        for name, begin in (("ros2.db3", b"SQLite format 3\0"), ("ros2.mcap", b"\x89MCAP0\r\n")):
+            pathlib.Path(self.path(name)).write_bytes(begin + b"0" * 500)
+            self.assertIn(name + ": is a bag of ROS 2, but must be one of ROS 1", self.refused("--odometry", self.path(name)))
         whole = pathlib.Path(noon).read_bytes()
         pathlib.Path(self.path("cut.bag")).write_bytes(whole[:-50])  # within the index, which is the end
         pathlib.Path(self.path("half.bag")).write_bytes(whole[:len(whole) // 2])

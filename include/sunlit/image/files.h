@@ -17,6 +17,9 @@ std::string reasonOf(int error);
 /// reasonOf() tells, where the system would end the process without a word (SIGXFSZ).
 void prepareProcess();
 
+/// Makes a folder and those above it, where they are not there.
+void makeFolder(const std::string& folder);
+
 /// Writes `bytes` beside `path` under another name, makes them durable (fsync), then renames. The folder must
 /// exist.
 void writeFileAtomically(const std::string& path, const std::string& bytes);

@@ -23,10 +23,7 @@ const DataSetLayout& layoutOf(DataSetFormat format) {
 }
 
 void makeFolderOf(const std::string& file) {
-  const fs::path folder = fs::path(file).parent_path();
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder.string() + ": the folder cannot be made: " + error.message());
+  image::makeFolder(fs::path(file).parent_path().string());
 }
 
 image::Grey8Image greyOf(const image::Rgb8Image& picture) {

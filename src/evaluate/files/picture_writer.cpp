@@ -22,13 +22,6 @@ std::string pngOf(const std::string& path, const cv::Mat& rgb) {
   return {bytes.begin(), bytes.end()};
 }
 
-void makeParentOf(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder.string() + ": folder cannot be made: " + error.message());
-}
-
 }  // namespace
 
 std::string PictureWriter::pathOf(const std::string& stream, std::int64_t pose) const {
@@ -66,7 +59,7 @@ void PictureWriter::write(const std::string& stream, std::int64_t pose, std::int
   const std::int64_t known_pose = aside == aside_.end() ? pose : aside->second.pose.value_or(pose);
   if (!is_aside && !isClaimedBy(stream, known_pose, stamp_ns)) return;
   const std::string path = is_aside ? pathOf(stream, aside->second) : pathOf(stream, known_pose);
-  makeParentOf(path);
+  image::makeFolder(std::filesystem::path(path).parent_path().string());
   image::writeFileAtomically(path, png);
 }
 

@@ -34,6 +34,18 @@ std::vector<Query> queriesIn(const DriveIndex& drives, const ObservedStreams& st
   return queries;
 }
 
+std::set<std::pair<std::string, std::int64_t>> picturesToMap(const DriveIndex& drives,
+                                                             const std::vector<std::string>& streams,
+                                                             const std::vector<std::string>& detectors) {
+  std::set<std::pair<std::string, std::int64_t>> pictures;
+  for (const std::string& stream : streams) {
+    for (const std::string& detector : detectors) {
+      for (const auto& [pose, place] : drives.at(stream, detector)) pictures.emplace(stream, pose);
+    }
+  }
+  return pictures;
+}
+
 }  // namespace
 
 ObservedResult localiseObserved(const ObservedDrives& observed, const LocalisationOptions& options,
@@ -47,6 +59,7 @@ ObservedResult localiseObserved(const ObservedDrives& observed, const Localisati
               {detector, detectorOf(options, detector).space(), options.map_every_m, options.localiser},
               progress.stop));
   ObservedResult result;
+  result.to_map = picturesToMap(drives, streams.map, options.detectors);
   for (std::size_t d = 0; d < maps.size(); ++d) {
     result.key_frames = std::max(result.key_frames, maps[d].origins.size());
     if (maps[d].features > 0 && maps[d].points == 0) result.unplaced.push_back(options.detectors[d]);

@@ -66,7 +66,10 @@ PictureFolder openPictureFolder(const std::string& folder) {
   PictureFolder pictures;
   pictures.folder = folder;
   std::error_code error;
-  if (!fs::is_directory(folder, error)) throw std::runtime_error(folder + ": there is no such folder");
+  if (!fs::is_directory(folder, error))
+    throw std::runtime_error(folder + (fs::exists(folder, error)
+                                           ? ": is no folder, but must be one of pictures"
+                                           : ": there is no such folder"));
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const std::string name = entry->path().filename().string();

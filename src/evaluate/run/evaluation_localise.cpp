@@ -95,6 +95,12 @@ std::vector<std::unique_ptr<ObservationFile>> observationsOf(const std::vector<s
   return files;
 }
 
+std::set<std::pair<std::string, std::int64_t>> lookedFor(const std::vector<LocalisationRow>& rows) {
+  std::set<std::pair<std::string, std::int64_t>> pictures;
+  for (const LocalisationRow& row : rows) pictures.emplace(row.query, static_cast<std::int64_t>(row.pose));
+  return pictures;
+}
+
 // Also where the pair of a picture failed, as where one of several detectors throws.
 std::set<std::string> localisedStreams(const std::vector<LocalisationRow>& rows) {
   std::set<std::string> streams;
@@ -219,7 +225,12 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   outcome.key_frames = result.key_frames;
   outcome.unplaced = result.unplaced;
   outcome.queries = result.rows.size();
-  outcome.unobserved = unobserved(drives.streams, result.rows);
+  outcome.unobserved = evaluatedBut(lookedFor(result.rows), drives.streams.queries);
+  outcome.unmapped = evaluatedBut(result.to_map, drives.streams.map);
+  if (outcome.key_frames > 0 && outcome.unmapped > 0 && callbacks_.note)
+    callbacks_.note("map: " + std::to_string(outcome.unmapped) +
+                    " of its pictures were none to choose key frames from, for want of depth, pose or "
+                    "camera_info: see problems.csv");
   outcome.uncompared = uncompared(drives.streams, localisedStreams(result.rows));
   writeRunFile(file("run.yaml"), options_, &finished_, &outcome);
   if (result.rows.empty()) return outcome;
@@ -243,7 +254,8 @@ std::vector<LocalisationRow> Evaluation::State::localisedBefore() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!areOf(options_, records_, rows)) return {};
   }
-  return unobserved(streamsOf(options_), rows) == 0 ? rows : std::vector<LocalisationRow>();
+  return evaluatedBut(lookedFor(rows), streamsOf(options_).queries) == 0 ? rows
+                                                                         : std::vector<LocalisationRow>();
 }
 
 // There is what new results can be made of.
@@ -268,20 +280,18 @@ bool Evaluation::State::isWholePath() const {
   return options_.is_whole_path && completed_.isWhole();
 }
 
-// Evaluated pictures of query streams that no row tells of.
-std::size_t Evaluation::State::unobserved(const ObservedStreams& streams,
-                                          const std::vector<LocalisationRow>& rows) const {
-  std::set<std::pair<std::string, std::int64_t>> looked_for;
-  for (const LocalisationRow& row : rows) looked_for.emplace(row.query, static_cast<std::int64_t>(row.pose));
-  std::set<std::pair<std::string, std::int64_t>> lacking;
+// Evaluated pictures of `streams` that are none of `some`, streams and poses.
+std::size_t Evaluation::State::evaluatedBut(const std::set<std::pair<std::string, std::int64_t>>& some,
+                                            const std::vector<std::string>& streams) const {
+  std::set<std::pair<std::string, std::int64_t>> others;
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const PairRecord& record : records_) {
     for (const std::string& stream : {options_.pairs[record.pair].a, options_.pairs[record.pair].b}) {
-      if (isAmong(streams.queries, stream) && looked_for.count({stream, record.pose}) == 0)
-        lacking.emplace(stream, record.pose);
+      if (isAmong(streams, stream) && some.count({stream, record.pose}) == 0)
+        others.emplace(stream, record.pose);
     }
   }
-  return lacking.size();
+  return others.size();
 }
 
 // But for those that were `found`.

@@ -121,14 +121,6 @@ FramesLayout layoutOf(const EvaluationOptions& options, const std::vector<std::s
   return layout;
 }
 
-void makeFolder(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error || !std::filesystem::is_directory(path)) {
-    throw std::runtime_error("output_dir " + path + ": cannot be made: " + error.message());
-  }
-}
-
 /// Leaves out of `frames`, which `folder` holds, what problems.csv there names: a run that was killed had no
 /// time to take these rows out. Returns how many lines they had.
 std::size_t leaveOutNamed(const std::string& folder, const std::vector<PairSpec>& pairs,
@@ -205,7 +197,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
     for (int i = 0; i < kSamples; ++i)
       sampled_.insert(options_.poses.at(static_cast<std::size_t>(std::llround(last * i / (kSamples - 1)))));
   }
-  makeFolder(options_.output_dir);
+  image::makeFolder(options_.output_dir);
   claimFolder(options_.output_dir, settingsOf(options_));
   image::removeUnfinished(options_.output_dir);
   takeUpEarlierRuns();

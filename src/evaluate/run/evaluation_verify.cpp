@@ -42,7 +42,7 @@ bool Evaluation::State::isToBeDrawn(const Work& work, std::size_t pair, std::siz
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const ExtremePoses& so_far = extremes_[pair * verified_layout_.differences.size() + detector];
-    if (!so_far.takes(rightMatches(verified), work.pose)) return false;
+    if (!so_far.takes(rightMatches(verified), work.stamp_ns)) return false;
   }
   drawn_->claim(drawnName(pair, detector), work.pose, work.stamp_ns, true);
   return true;
@@ -56,7 +56,7 @@ void Evaluation::State::rankAll() {
   extremes_.assign(options_.pairs.size() * verified_layout_.differences.size(), {});
   for (const VerifiedRecord& record : verified_) {
     for (std::size_t d = 0; d < record.values.size(); ++d)
-      extremes(record.pair, d).add(rightMatches(record.values[d]), record.pose);
+      extremes(record.pair, d).add(rightMatches(record.values[d]), record.stamp_ns, record.pose);
   }
 }
 
@@ -66,7 +66,7 @@ void Evaluation::State::rankKept(const VerifiedRecord& verified) {
     ExtremePoses& ranked = extremes(verified.pair, d);
     std::set<std::int64_t> before = ranked.poses();
     before.insert(verified.pose);
-    ranked.add(rightMatches(verified.values[d]), verified.pose);
+    ranked.add(rightMatches(verified.values[d]), verified.stamp_ns, verified.pose);
     for (const std::int64_t pose : before) {
       if (!ranked.has(pose) && !isSample(pose)) fallen_.emplace_back(drawnName(verified.pair, d), pose);
     }

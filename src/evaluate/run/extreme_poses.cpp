@@ -6,14 +6,14 @@
 namespace sunlit::evaluate {
 namespace {
 
-using Ranked = std::set<std::pair<std::int64_t, std::int64_t>>;
+using Ranked = std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t>;
 
-bool ranks(const Ranked& ranked, std::int64_t by, std::int64_t pose) {
-  return ranked.size() < kExtremePoses || std::make_pair(by, pose) < *ranked.rbegin();
+bool ranks(const Ranked& ranked, std::int64_t by, std::int64_t stamp_ns) {
+  return ranked.size() < kExtremePoses || std::make_pair(by, stamp_ns) < ranked.rbegin()->first;
 }
 
-void rank(Ranked& ranked, std::int64_t by, std::int64_t pose) {
-  ranked.emplace(by, pose);
+void rank(Ranked& ranked, std::int64_t by, std::int64_t stamp_ns, std::int64_t pose) {
+  ranked[{by, stamp_ns}] = pose;
   if (ranked.size() > kExtremePoses) ranked.erase(std::prev(ranked.end()));
 }
 
@@ -28,13 +28,13 @@ std::int64_t rightMatches(const Verified& verified) {
   return std::llround(verified.precision * static_cast<double>(verified.difference.matches));
 }
 
-bool ExtremePoses::takes(std::int64_t right, std::int64_t pose) const {
-  return ranks(fewest_, right, pose) || ranks(most_, -right, pose);
+bool ExtremePoses::takes(std::int64_t right, std::int64_t stamp_ns) const {
+  return ranks(fewest_, right, stamp_ns) || ranks(most_, -right, stamp_ns);
 }
 
-void ExtremePoses::add(std::int64_t right, std::int64_t pose) {
-  rank(fewest_, right, pose);
-  rank(most_, -right, pose);
+void ExtremePoses::add(std::int64_t right, std::int64_t stamp_ns, std::int64_t pose) {
+  rank(fewest_, right, stamp_ns, pose);
+  rank(most_, -right, stamp_ns, pose);
 }
 
 bool ExtremePoses::has(std::int64_t pose) const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -16,17 +17,19 @@ constexpr std::size_t kExtremePoses = 2;
 /// Of those matches that pass the ratio test; 0 where none does.
 std::int64_t rightMatches(const Verified& verified);
 
-/// Of equally many the lower poses are kept, so that the order in which they come decides nothing.
+/// Of equally many the earlier ones are kept, so that neither the order in which they come nor numbers that
+/// are settled at the end decide anything.
 class ExtremePoses {
  public:
   /// It would be among them now. What never would is none of the last.
-  bool takes(std::int64_t right, std::int64_t pose) const;
-  void add(std::int64_t right, std::int64_t pose);
+  bool takes(std::int64_t right, std::int64_t stamp_ns) const;
+  void add(std::int64_t right, std::int64_t stamp_ns, std::int64_t pose);
   bool has(std::int64_t pose) const;
   std::set<std::int64_t> poses() const;
 
  private:
-  using Ranked = std::set<std::pair<std::int64_t, std::int64_t>>;  // what they are ranked by, and the pose
+  /// Poses by what they are ranked by, and their stamp.
+  using Ranked = std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t>;
   Ranked fewest_;
   Ranked most_;  // by less right matches than none
 };

@@ -108,7 +108,8 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
        << "\n  absent_poses: " << outcome.absent_poses << "\n  not_mended: " << outcome.not_mended
        << "\n  unexpected_poses: " << outcome.counts.unexpected_poses;
   if (localised != nullptr)
-    text << "\n  key_frames: " << localised->key_frames << "\n  not_localised: " << localised->unobserved
+    text << "\n  key_frames: " << localised->key_frames << "\n  not_mapped: " << localised->unmapped
+         << "\n  not_localised: " << localised->unobserved
          << "\n  unplaced: " << listText(localised->unplaced);
   text << "\ncounters:\n  streams:\n";
   for (std::size_t i = 0; i < options.streams.size(); ++i) {

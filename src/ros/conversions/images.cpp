@@ -85,7 +85,7 @@ sensor_msgs::CameraInfo toCameraInfo(const image::Calibration& calibration, cons
 }
 
 image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info) {
-  if (info.K[1] != 0.0) throw std::invalid_argument("camera_info has skew, but must have none");
+  if (info.K[1] != 0.0) refuse("camera_info/K[1], the skew,", textOf(info.K[1]), "0");
   const bool is_whole = (info.roi.width == 0 || info.roi.width == info.width) &&
                         (info.roi.height == 0 || info.roi.height == info.height);
   if (info.binning_x > 1 || info.binning_y > 1 || !is_whole)

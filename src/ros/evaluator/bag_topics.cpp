@@ -4,8 +4,10 @@
 #include <rosbag/view.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "sunlit/evaluate/files/stream_name.h"
 #include "sunlit/quantity/comma_list.h"
@@ -19,12 +21,23 @@ std::string topicsInWords(const std::set<std::string>& topics) {
 
 namespace {
 
-/// Whether it begins as bags do.
+bool isBegunAs(const std::string& path, const std::string& wanted) {
+  std::string begin(wanted.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return file && begin == wanted;
+}
+
 bool isBegunAsBag(const std::string& path) {
-  const std::string kBegin = "#ROSBAG V";
-  std::string begin(kBegin.size(), '\0');
-  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return begin == kBegin;
+  return isBegunAs(path, "#ROSBAG V");
+}
+
+/// What is said of a file that does not begin as bags do, nor is one of nothing.
+std::string notABag(const std::string& path) {
+  if (isBegunAs(path, "SQLite format 3") || isBegunAs(path, "\x89MCAP"))
+    return path + ": is a bag of ROS 2, but must be one of ROS 1: rosbags-convert of the Python package " +
+           "rosbags makes one of it";
+  return path + ": is not a bag: it does not begin with #ROSBAG V2.0";
 }
 
 /// The index of a bag is its end, which is missing where it was cut off: it is unindexed, or its reading
@@ -38,6 +51,9 @@ bool lacksItsEnd(const std::string& path, const rosbag::BagException& error) {
 
 std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
   auto bag = std::make_unique<rosbag::Bag>();
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error) && !isBegunAsBag(path))
+    throw std::runtime_error(notABag(path));
   try {
     bag->open(path, rosbag::bagmode::Read);
   } catch (const rosbag::BagException& error) {

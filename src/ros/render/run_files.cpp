@@ -67,9 +67,7 @@ std::string cameraPrint(const render::RenderOptions& left, const std::optional<i
 
 RunFiles::RunFiles(const std::string& folder, bool goes_on)
     : folder_(folder), goes_on_(goes_on || holdsValues(folder)) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) throw std::runtime_error(folder_ + ": the folder cannot be made: " + error.message());
+  image::makeFolder(folder_);
   requireWritable(folder_);
   if (goes_on_) earlier_ = studio::readTimeSheet(folder_ + "/timing.csv");
 }

@@ -9,15 +9,6 @@
 namespace sunlit::ros_interface {
 namespace {
 
-/// What no range of one field tells: 31 February.
-void requireDay(const ParameterReader& parameters, const CivilDateTime& civil) {
-  try {
-    astronomy::instantOf(civil);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("parameter " + parameters.fullName("date_time/day") + ": " + error.what());
-  }
-}
-
 std::vector<Field> framesOf(SunPositionOptions& options) {
   return {{"map", &options.map_frame, "", {}, "TF frame of the site: x east, y north, z up"},
           {"sun", &options.sun_frame, "", {}, "TF frame whose x points at the sun"},
@@ -60,7 +51,8 @@ std::vector<Field> fieldsOfNode(double* diagnostic_period_s) {
 SunPositionOptions readSunPositionOptions(const ParameterReader& parameters) {
   SunPositionOptions options;
   parameters.read(fieldsOf(options));
-  requireDay(parameters, options.date_time);
+  // What no range of one field tells: 31 February.
+  parameters.check("date_time", [&] { astronomy::instantOf(options.date_time); });
   requireFrameNames(parameters, under("frames", framesOf(options)));
   if (options.wait_for_subscriber && options.start_stamp_s) {
     throw std::invalid_argument("parameters " + parameters.fullName("date_time/start_stamp") + " and " +

@@ -552,7 +552,7 @@ about:
                  (['--config', self.path('no.yaml'), '--out', self.path('out'), self.path('one.bag')], 'no.yaml'),
                  (['--config', self.config, '--out', '/proc/out', self.path('all.bag')], '/proc/out'),
                  (['--config', self.config, '--out', self.path('full'), self.path('all.bag')],
-                  'full/images/h04: folder cannot be made'),
+                  'full/images/h04: the folder cannot be made'),
                  (start, 'no bag given'),
                  (start + ['--detectors', 'orb', self.path('all.bag')], '--detectors needs --map or --odometry too'),
                  (start + ['--depth', '/depth', self.path('all.bag')], '--depth needs --map or --odometry too'),

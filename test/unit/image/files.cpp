@@ -49,6 +49,25 @@ Rgb8Image pattern() {
   return picture;
 }
 
+TEST_F(Files, AFolderIsMadeWithAllAboveItOrTheReasonIsTold) {
+  makeFolder(path("a/b/c"));
+  EXPECT_TRUE(fs::is_directory(path("a/b/c")));
+  makeFolder(path("a/b/c"));
+  fs::create_symlink(path("a/b"), path("whole"));
+  makeFolder(path("whole/d"));
+  EXPECT_TRUE(fs::is_directory(path("a/b/d")));
+  put("file", "");
+  const auto refusal = [this](const std::string& name) {
+    return messageOf<std::runtime_error>([&] { makeFolder(path(name)); });
+  };
+  EXPECT_EQ(refusal("file/below"), path("file/below") + ": the folder cannot be made: Not a directory");
+  EXPECT_EQ(refusal("file"), path("file") + ": the folder cannot be made: Not a directory");
+  fs::create_symlink("/nowhere", path("link"));
+  for (const char* name : {"link", "link/below"})
+    EXPECT_EQ(refusal(name), path(name) + ": the folder cannot be made: " + path("link") +
+                                 " is a link to /nowhere, which is not there");
+}
+
 TEST_F(Files, LeftUnfinishedByProcessesThatHaveEndedAreRemoved) {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(0);
@@ -146,6 +165,8 @@ TEST_F(Files, PhotographsAreReadInAnyFormat) {
   const Rgb8Image picture = readPhotograph(path("a.ppm"));
   EXPECT_EQ(picture.width, 2);
   EXPECT_EQ(picture.data, (std::vector<std::uint8_t>{255, 128, 1, 2, 3, 4}));
+  put("text.ppm", "P3\n2 1\n255\n255 128 1 2 3 4");
+  EXPECT_EQ(readPhotograph(path("text.ppm")).data, picture.data);
   put("deep.ppm", std::string("P6\n1 1\n65535\n\xff\xff\x80\x80\x01\x01", 19));
   EXPECT_EQ(readPhotograph(path("deep.ppm")).data,
             (std::vector<std::uint8_t>{255, 128, 1}));  // v · 255 / 65535

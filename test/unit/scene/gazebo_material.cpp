@@ -102,6 +102,18 @@ TEST(MaterialScript, HasVariables) {
       "A");
   ASSERT_TRUE(material);
   EXPECT_EQ(material->texture.value_or(""), "a b.png");
+  const std::string script = R"(
+material A { set $green "0 1 0"
+  set $paint $green
+  technique { pass { diffuse $paint
+  } } }
+material B { technique { pass { diffuse $blue
+  } } }
+)";
+  expectGreen(parseMaterialScript(script, "A"));
+  EXPECT_TRUE(parseMaterialScript(script, "A")->lost.empty());
+  EXPECT_EQ(parseMaterialScript(script, "B")->lost,
+            std::set<std::string>{"variable $blue, which is not set before"});
 }
 
 TEST(MaterialScript, InheritsFromWhatComesWithGazeboAndNamesAParentThatIsNotThere) {

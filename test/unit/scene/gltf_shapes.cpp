@@ -150,6 +150,15 @@ TEST_F(GltfShape, OfMorphTargetsIsThatOfTheirWeights) {
   const Scene other = loaded(parts);
   ASSERT_EQ(other.warnings.size(), 1u);
   EXPECT_NE(other.warnings[0].find(": face: "), std::string::npos) << other.warnings[0];
+
+  parts.nodes = Parts().nodes;
+  parts.primitive = R"("attributes":{"POSITION":0,"COLOR_0":1},"targets":[{"COLOR_0":1}])";
+  const Scene colored = loaded(parts);
+  ASSERT_EQ(colored.warnings.size(), 1u);
+  EXPECT_NE(colored.warnings[0].find("mesh 0: COLOR_0 of its morph targets"), std::string::npos)
+      << colored.warnings[0];
+  parts.mesh = R"(,"weights":[0])";
+  EXPECT_TRUE(loaded(parts).warnings.empty());
 }
 
 TEST_F(GltfShape, IsFoundWhateverTheNameOfItsNumbers) {

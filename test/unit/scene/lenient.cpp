@@ -254,6 +254,52 @@ TEST_F(Lenient, NumbersThatEndInSomethingElseAreNamed) {
   EXPECT_NE(scene.warnings[0].find(" is 1,5 2 3 0 0 0"), std::string::npos) << scene.warnings[0];
 }
 
+TEST_F(Lenient, NumbersOfMetalsAndPlacesMayEndInSomethingElseAndPicturesMayBeginWithANumber) {
+  const Scene scene = loaded(
+      "<spherical_coordinates><latitude_deg>48,1</latitude_deg></spherical_coordinates>" +
+      model(link("<visual name='v'>" + kBox +
+                 "<material><pbr><metal><roughness>0,5</roughness></metal></pbr></material></visual>")));
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0].find("2 numbers end in what is none"), 0u) << scene.warnings[0];
+  write("h.pgm", "P2 3 3 9 0 0 0 0 9 0 0 0 0");
+  for (const std::string& warning :
+       loaded(model(link("<visual name='v'><geometry><heightmap><uri>h.pgm</uri><size>2 2 1</size><texture>"
+                         "<diffuse>1_grass.png</diffuse><normal>1_flat.png</normal><size>1</size></texture>"
+                         "</heightmap></geometry></visual>")))
+           .warnings)
+    EXPECT_EQ(warning.find("numbers end"), std::string::npos) << warning;
+}
+
+TEST_F(Lenient, LengthsBelowZeroAreTakenAsPositive) {
+  const Scene scene = loaded(model(
+      link("<visual name='a'><geometry><box><size>-2 4 6</size></box></geometry></visual>"
+           "<visual name='b'><geometry><cylinder><radius>-1</radius><length>2</length></cylinder></geometry>"
+           "</visual>")));
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  for (const Mesh& mesh : scene.meshes) {
+    EXPECT_GT(volumeOf(mesh), 0.0) << mesh.name << " is inside out";
+  }
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0].find("2 lengths are negative, they are taken as positive: <size>"), 0u)
+      << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find(" is -2 4 6"), std::string::npos) << scene.warnings[0];
+}
+
+TEST_F(Lenient, GeometriesOfSeveralShapesAndOutlinesOfNothingAreNamed) {
+  const std::string pole = "<sphere><radius>1</radius></sphere>";
+  const Scene scene = loaded(
+      model(link("<visual name='a'><geometry>" + pole + "<box><size>1 1 1</size></box></geometry></visual>") +
+            link("<visual name='b'><geometry><polyline><point>0 0</point><point>1 0</point><height>1</height>"
+                 "</polyline></geometry></visual>",
+                 "k")));
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 2u);
+  EXPECT_EQ(scene.warnings[0].find("1 geometries hold several shapes, one of them is drawn"), 0u)
+      << scene.warnings[0];
+  EXPECT_EQ(scene.warnings[1],
+            "1 visuals have no shape that can be drawn: m::k::b (outlines that enclose nothing)");
+}
+
 // As Gazebo 9 saves models within models; libsdformat's converter asserts that the frame is one of the
 // model's.
 TEST_F(Lenient, APoseMayNameNoFrame) {

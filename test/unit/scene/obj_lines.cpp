@@ -61,6 +61,20 @@ TEST_F(ObjLines, CommentsMayStandBehindThem) {
   EXPECT_EQ(load(write("e.obj", quad + "l 1 2 # edge\np 1 # 2\n"), {}).triangleCount(), 2u);
 }
 
+TEST_F(ObjLines, OfShapesThatAreNotReadAreNamed) {
+  const std::string whole = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 1 \\\n2 \\\n3\n";
+  EXPECT_EQ(meshOf(whole).triangles.size(), 2u);
+  const Scene scene = load(
+      write("l.obj", whole + "f 1 2 # and no 3\ncstype bezier\nsurf 0 1 0 1 1 2 3\n" + "call other.obj\n"),
+      {});
+  EXPECT_EQ(scene.triangleCount(), 2u);
+  ASSERT_FALSE(scene.warnings.empty());
+  EXPECT_EQ(scene.warnings[0],
+            "3 shapes of OBJ are none of three corners or more, they are left out: a face of 2 at " +
+                pathOf("l.obj") + ":8; surf at " + pathOf("l.obj") + ":10; call at " + pathOf("l.obj") +
+                ":11");
+}
+
 TEST_F(ObjLines, OfLibrariesMayNameSeveral) {
   write("a.mtl", "newmtl a\nKd 1 0 0\n");
   write("b.mtl", "newmtl b\nKd 0 0 1\n");

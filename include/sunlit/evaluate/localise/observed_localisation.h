@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sunlit/evaluate/localise/drive_index.h"
@@ -37,6 +40,8 @@ struct ObservedResult {
   std::size_t key_frames = 0;  ///< of the detector that has most: one that threw lacks some
   std::vector<std::string>
       unplaced;  ///< detectors that found features in the map, of which depth placed none
+  std::set<std::pair<std::string, std::int64_t>>
+      to_map;                         ///< streams and poses of the pictures that key frames were chosen from
   std::vector<LocalisationRow> rows;  ///< none without a key frame
 };
 

@@ -50,7 +50,8 @@ struct LocalisationOutcome {
   bool is_asked = false;                ///< there was something to be done
   std::size_t key_frames = 0;           ///< of the map; without one nothing is written
   std::size_t queries = 0;              ///< looked for, one for each detector
-  std::size_t unobserved = 0;           ///< evaluated pictures that lack depth, pose or camera
+  std::size_t unobserved = 0;           ///< evaluated pictures of queries that lack pose or camera
+  std::size_t unmapped = 0;             ///< those of the map that lack depth, pose or camera
   std::vector<std::string> uncompared;  ///< streams of which no picture was evaluated in any pair
   std::vector<std::string> unplaced;    ///< detectors that found features in the map, none placed by depth
   std::vector<LocalisationSummary> summary;  ///< also where it was done before

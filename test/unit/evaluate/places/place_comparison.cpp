@@ -236,7 +236,8 @@ TEST(PictureFolders, MustBeThereAndHoldPictures) {
   };
   EXPECT_EQ(refusal(folder.file("none")), folder.file("none") + ": there is no such folder");
   setContent(folder.file("a.png"), "");
-  EXPECT_EQ(refusal(folder.file("a.png")), folder.file("a.png") + ": there is no such folder");
+  EXPECT_EQ(refusal(folder.file("a.png")),
+            folder.file("a.png") + ": is no folder, but must be one of pictures");
   setContent(folder.file("texts/a.txt"), "");
   EXPECT_EQ(refusal(folder.file("texts")),
             folder.file("texts") + ": holds no pictures (.png .jpg .jpeg .bmp .tif .tiff .webp .ppm .pgm)");

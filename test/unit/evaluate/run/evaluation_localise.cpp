@@ -490,7 +490,8 @@ TEST(EvaluationLocalise, AMapWhoseDepthTellsNoPlaceIsAFaultAndNotOfTheLight) {
 
 TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
   const TemporaryFolder folder;
-  Evaluation evaluation(localising(folder), {});
+  std::string notes;
+  Evaluation evaluation(localising(folder), notingTo(&notes));
   for (std::int64_t pose = 0; pose < kPoses; ++pose) feedImages(evaluation, pose);
   feedTruth(evaluation, 0);
   evaluation.addTruePose(stampOf(1), unusable<Eigen::Isometry3d>("holds what is not finite"));
@@ -506,9 +507,11 @@ TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
   const LocalisationOutcome outcome = evaluation.localise({});
   EXPECT_EQ(outcome.key_frames, 1u);
   EXPECT_EQ(outcome.unobserved, 2u) << "pose 1 of both queries";
-  EXPECT_NE(
-      contentOf(folder.file("out/run.yaml")).find("\n  key_frames: 1\n  not_localised: 2\n  unplaced: []\n"),
-      std::string::npos);
+  EXPECT_EQ(outcome.unmapped, 3u);
+  EXPECT_NE(notes.find("map: 3 of its pictures were none to choose key frames from"), std::string::npos);
+  EXPECT_NE(contentOf(folder.file("out/run.yaml"))
+                .find("\n  key_frames: 1\n  not_mapped: 3\n  not_localised: 2\n  unplaced: []\n"),
+            std::string::npos);
   EXPECT_FALSE(outcome.isWhole());
   const std::string problems = contentOf(folder.file("out/problems.csv"));
   EXPECT_TRUE(hasLine(problems, "unlocalised,1,500.100000000,dusk,camera/pose: holds what is not finite"));

@@ -442,6 +442,31 @@ TEST(VerifiedRun, DrawsTheSameWhateverCameFirstAndHoweverOftenItWasKilled) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("out/lost_features.bin"))) << "nobody will ask again";
 }
 
+// Their numbers turn round at the end, and of equally many right matches the earlier poses are drawn.
+TEST(VerifiedRun, DrawsTheSameOfEqualImagesThatComeBackwards) {
+  std::vector<std::vector<std::string>> found;
+  for (const bool is_backwards : {false, true}) {
+    const TemporaryFolder folder;
+    std::string notes;
+    Evaluation evaluation(verifying(folder), notingTo(&notes));
+    for (std::int64_t i = 0; i < kPoses; ++i) {
+      const std::int64_t pose = is_backwards ? kPoses - 1 - i : i;
+      for (std::size_t s = 0; s < evaluation.options().streams.size(); ++s)
+        evaluation.addImage(s, stampOf(pose), lit(0, s));
+    }
+    EXPECT_TRUE(evaluation.finish().isWhole());
+    EXPECT_EQ(notes, "");
+    found.emplace_back();
+    const std::string matches = folder.file("out/matches");
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(matches))
+      if (entry.is_regular_file())
+        found.back().push_back(entry.path().lexically_relative(matches).generic_string());
+    std::sort(found.back().begin(), found.back().end());
+  }
+  EXPECT_EQ(found[0].size(), 2u * 3u * 2u) << "the first two poses, pairs, detectors";
+  EXPECT_EQ(found[1], found[0]);
+}
+
 TEST(VerifiedRun, SaysOfHowManyPosesWhereFeaturesAreLost) {
   const TemporaryFolder folder;
   EvaluationOptions options = verifying(folder);
