@@ -34,10 +34,9 @@ std::vector<Query> queriesIn(const DriveIndex& drives, const ObservedStreams& st
   return queries;
 }
 
-std::set<std::pair<std::string, std::int64_t>> picturesToMap(const DriveIndex& drives,
-                                                             const std::vector<std::string>& streams,
-                                                             const std::vector<std::string>& detectors) {
-  std::set<std::pair<std::string, std::int64_t>> pictures;
+StreamPoses picturesToMap(const DriveIndex& drives, const std::vector<std::string>& streams,
+                          const std::vector<std::string>& detectors) {
+  StreamPoses pictures;
   for (const std::string& stream : streams) {
     for (const std::string& detector : detectors) {
       for (const auto& [pose, place] : drives.at(stream, detector)) pictures.emplace(stream, pose);

@@ -95,8 +95,8 @@ std::vector<std::unique_ptr<ObservationFile>> observationsOf(const std::vector<s
   return files;
 }
 
-std::set<std::pair<std::string, std::int64_t>> lookedFor(const std::vector<LocalisationRow>& rows) {
-  std::set<std::pair<std::string, std::int64_t>> pictures;
+StreamPoses lookedFor(const std::vector<LocalisationRow>& rows) {
+  StreamPoses pictures;
   for (const LocalisationRow& row : rows) pictures.emplace(row.query, static_cast<std::int64_t>(row.pose));
   return pictures;
 }
@@ -280,10 +280,10 @@ bool Evaluation::State::isWholePath() const {
   return options_.is_whole_path && completed_.isWhole();
 }
 
-// Evaluated pictures of `streams` that are none of `some`, streams and poses.
-std::size_t Evaluation::State::evaluatedBut(const std::set<std::pair<std::string, std::int64_t>>& some,
+// Evaluated pictures of `streams` that are none of `some`.
+std::size_t Evaluation::State::evaluatedBut(const StreamPoses& some,
                                             const std::vector<std::string>& streams) const {
-  std::set<std::pair<std::string, std::int64_t>> others;
+  StreamPoses others;
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const PairRecord& record : records_) {
     for (const std::string& stream : {options_.pairs[record.pair].a, options_.pairs[record.pair].b}) {

@@ -127,8 +127,7 @@ class Evaluation::State {
   void forgetLocalised() const;
   bool hasForgottenObservations(const std::string& folder) const;
   bool isWholePath() const;
-  std::size_t evaluatedBut(const std::set<std::pair<std::string, std::int64_t>>& some,
-                           const std::vector<std::string>& streams) const;
+  std::size_t evaluatedBut(const StreamPoses& some, const std::vector<std::string>& streams) const;
   std::vector<std::string> uncompared(const ObservedStreams& streams, std::set<std::string> found) const;
   bool isObserved(const Work& work, std::size_t stream, std::size_t difference) const;
   void reportUnlocalised(const Work& work, std::size_t stream, const std::string& fault);

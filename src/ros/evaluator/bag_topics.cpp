@@ -51,8 +51,8 @@ bool lacksItsEnd(const std::string& path, const rosbag::BagException& error) {
 
 std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
   auto bag = std::make_unique<rosbag::Bag>();
-  std::error_code error;
-  if (std::filesystem::is_regular_file(path, error) && !isBegunAsBag(path))
+  std::error_code none;
+  if (std::filesystem::is_regular_file(path, none) && !isBegunAsBag(path))
     throw std::runtime_error(notABag(path));
   try {
     bag->open(path, rosbag::bagmode::Read);

@@ -58,7 +58,7 @@ class SunRefusesParameters(unittest.TestCase):
         self.check({"site": {"latitude": 91.0}}, "/bad_sun/site/latitude", "91", "from -90 to 90")
         self.check({"date_time": {"month": 13}}, "/bad_sun/date_time/month", "13", "from 1 to 12")
         self.check({"date_time": {"month": 2, "day": 31}}, "/bad_sun/date_time/day", "31", "from 1 to 29")
-        self.check({"conditions": {"h04": {"month": 2}}, "date_time": {"day": 31}}, "conditions/h04", "date_time/day is 31")
+        self.check({"conditions": {"h04": {"month": 2}}, "date_time": {"day": 31}}, "date_time/day, in /bad_sun/conditions/h04, is 31")
         self.check({"date_time": {"second": 60.0}}, "/bad_sun/date_time/second", "60")
         self.check({"earth": {"delta_t": "soon"}}, "/bad_sun/earth/delta_t", "soon", "auto")
         self.check({"earth": {"delta_t": "später …"}}, "später …")  # whatever the locale

@@ -36,12 +36,14 @@ struct ObservedDrives {
   PoseOfObservation settled;
 };
 
+/// Pictures, by stream and pose.
+using StreamPoses = std::set<std::pair<std::string, std::int64_t>>;
+
 struct ObservedResult {
   std::size_t key_frames = 0;  ///< of the detector that has most: one that threw lacks some
   std::vector<std::string>
-      unplaced;  ///< detectors that found features in the map, of which depth placed none
-  std::set<std::pair<std::string, std::int64_t>>
-      to_map;                         ///< streams and poses of the pictures that key frames were chosen from
+      unplaced;        ///< detectors that found features in the map, of which depth placed none
+  StreamPoses to_map;  ///< those that key frames were chosen from
   std::vector<LocalisationRow> rows;  ///< none without a key frame
 };
 
